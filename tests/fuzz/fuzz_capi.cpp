@@ -1,123 +1,16 @@
 // Descriptors of the C interface: heads, sizes, strides, counts, kinds and numbers are garbage, and pointers
 // are null or have as much memory as the descriptor states. Each call has a status with a sentence, and none
 // writes elsewhere.
-#include <algorithm>
-#include <array>
-#include <cstring>
-#include <limits>
+#include <string>
+#include <vector>
 
-#include <bodice.h>
-
-#include "harness.hpp"
+#include "draw.hpp"
 
 namespace {
 
-constexpr std::size_t kRoom = 1 << 16;  ///< bytes that a pointer has around it, on either side
-constexpr std::size_t kMost = 200;      ///< elements of an array
-static_assert(kMost * 128 + 128 < kRoom);
+using namespace fuzz;
 
-/// Memory of the host with a margin, so that strides of both signs stay inside.
-struct Memory {
-  std::array<std::uint8_t, 2 * kRoom> bytes;
-  Memory() { bytes.fill(0); }
-  void* middle() { return bytes.data() + kRoom; }
-};
-
-struct World {
-  bodice_context* context = nullptr;
-  bodice_proxy* proxy = nullptr;
-  bodice_collider* collider = nullptr;
-  bodice_workspace* workspace = nullptr;
-  Memory position, velocity, safe, mass, mask, contact, distance, point, normal, matrices;
-  std::array<std::uint32_t, 4096> index{}, ellipsoid{};
-  std::array<std::uint8_t, 4096> part{};
-
-  World() {
-    const bodice_context_options options = bodice_default_context_options();
-    FUZZ_CHECK(bodice_context_create(&options, &context) == BODICE_OK);
-  }
-  void load(const char* file) {
-    std::ifstream in(file, std::ios::binary);
-    const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    FUZZ_CHECK(bodice_proxy_from_bytes(context, text.data(), text.size(), &proxy) == BODICE_OK);
-    FUZZ_CHECK(bodice_collider_create(context, proxy, &collider) == BODICE_OK);
-    FUZZ_CHECK(bodice_workspace_create(context, &workspace) == BODICE_OK);
-  }
-};
-
-/// Draws the members of descriptors from the bytes.
-class Draw {
- public:
-  explicit Draw(fuzz::Bytes& bytes) : bytes_(bytes) {}
-  bool rarely() { return bytes_.next() % 16 == 1; }
-  std::int32_t number() {
-    const int high = bytes_.next();
-    return static_cast<std::int32_t>((static_cast<std::uint32_t>(high) << (bytes_.next() % 25)) - 3u);
-  }
-  float real() {
-    static constexpr float kOdd[] = {0.0f,  -0.0f, 1e-30f, 1e30f, std::numeric_limits<float>::infinity(),
-                                     -1.0f, 0.01f, 3e38f,  0.3f,  std::numeric_limits<float>::quiet_NaN()};
-    return kOdd[bytes_.next() % std::size(kOdd)];
-  }
-  std::int32_t scalar() { return rarely() ? number() : bytes_.next() % 2; }
-  /// Any stride of few bytes: kMost elements stay within the room of a pointer.
-  std::ptrdiff_t stride() { return static_cast<std::int8_t>(bytes_.next()); }
-  bodice_vectors vectors(Memory& memory) {
-    if (rarely()) return {};
-    bodice_vectors out{memory.middle(), nullptr, nullptr, stride(), scalar(), 0};
-    if (rarely()) out.y = out.x;
-    if (rarely()) out.y = out.x, out.z = out.x;
-    return out;
-  }
-  bodice_scalars scalars(Memory& memory) {
-    if (!rarely()) return {};
-    return {memory.middle(), stride(), scalar(), 0};
-  }
-  /// Breaks the head now and then.
-  void head(bodice_head& head) {
-    if (rarely()) head.cookie = static_cast<std::uint32_t>(number());
-    if (rarely()) head.struct_size = static_cast<std::uint32_t>(bytes_.next()) % head.struct_size;
-    if (rarely()) head.struct_size = 0x7fffffffu;
-  }
-
- private:
-  fuzz::Bytes& bytes_;
-};
-
-/// A count of particles: few, or more than any call takes, which must be refused before an array is read.
-std::size_t count_of(Draw& draw, fuzz::Bytes& bytes) {
-  if (draw.rarely()) return std::size_t{BODICE_MAX_PARTICLES} + 1 + bytes.next();
-  if (draw.rarely()) return std::numeric_limits<std::size_t>::max() - bytes.next();
-  return bytes.next() % kMost;
-}
-
-bodice_particles particles_of(World& world, Draw& draw, fuzz::Bytes& bytes) {
-  bodice_particles out = bodice_default_particles();
-  out.count = count_of(draw, bytes);
-  out.position = draw.vectors(world.position);
-  if (draw.rarely()) out.velocity = draw.vectors(world.velocity);
-  if (draw.rarely()) out.safe = draw.vectors(world.safe);
-  out.inverse_mass = draw.scalars(world.mass);
-  if (draw.rarely()) {
-    out.mask = static_cast<const std::uint8_t*>(world.mask.middle());
-    out.mask_stride = draw.stride();
-  }
-  if (draw.rarely()) {
-    for (std::size_t i = 0; i < kMost; ++i) world.index[i] = bytes.next();
-    out.index = world.index.data();
-    out.elements = draw.rarely() ? count_of(draw, bytes) : kMost;
-  }
-  if (draw.rarely()) out.space = draw.number();
-  draw.head(out.head);
-  return out;
-}
-
-void check(bodice_status status) {
-  FUZZ_CHECK(status >= BODICE_OK && status <= BODICE_VERSION_MISMATCH);
-  if (status != BODICE_OK) FUZZ_CHECK(std::strlen(bodice_last_error()) > 10);
-}
-
-void query(World& world, Draw& draw, fuzz::Bytes& bytes) {
+void query(World& world, Draw& draw, Bytes& bytes) {
   const bodice_particles particles = particles_of(world, draw, bytes);
   bodice_query_options options = bodice_default_query_options();
   if (draw.rarely()) options.within_m = draw.real();
@@ -137,7 +30,7 @@ void query(World& world, Draw& draw, fuzz::Bytes& bytes) {
                      draw.rarely() ? nullptr : world.workspace, draw.rarely() ? nullptr : &contacts));
 }
 
-void resolve(World& world, Draw& draw, fuzz::Bytes& bytes) {
+void resolve(World& world, Draw& draw, Bytes& bytes) {
   const bodice_particles particles = particles_of(world, draw, bytes);
   bodice_resolve_options options = bodice_default_resolve_options();
   if (draw.rarely()) options.thickness_m = draw.real();
@@ -151,7 +44,7 @@ void resolve(World& world, Draw& draw, fuzz::Bytes& bytes) {
                        draw.rarely() ? nullptr : &report));
 }
 
-void move(World& world, Draw& draw, fuzz::Bytes& bytes) {
+void move(World& world, Draw& draw, Bytes& bytes) {
   bodice_pose pose = bodice_default_pose();
   auto* numbers = static_cast<float*>(world.matrices.middle());
   for (int i = 0; i < 48; ++i) numbers[i] = i % 13 == 0 ? 1.0f : 0.0f;
@@ -167,7 +60,7 @@ void move(World& world, Draw& draw, fuzz::Bytes& bytes) {
                          : bodice_collider_pose(world.collider, &pose));
 }
 
-void exact(World& world, Draw& draw, fuzz::Bytes& bytes) {
+void exact(World& world, Draw& draw, Bytes& bytes) {
   bodice_mesh mesh = bodice_default_mesh();
   mesh.position = draw.vectors(world.position);
   mesh.vertices = count_of(draw, bytes);
@@ -181,10 +74,110 @@ void exact(World& world, Draw& draw, fuzz::Bytes& bytes) {
   bodice_exact_destroy(made);
 }
 
+void sweep(World& world, Draw& draw, Bytes& bytes) {
+  bodice_particles particles = particles_of(world, draw, bytes);
+  if (!draw.rarely()) particles.safe = draw.vectors(world.safe);
+  bodice_contacts contacts = bodice_default_contacts();
+  contacts.distance = {world.distance.middle(), draw.stride(), draw.scalar(), 0};
+  if (draw.rarely()) contacts.ellipsoid = world.ellipsoid.data(), contacts.part = world.part.data();
+  draw.head(contacts.head);
+  std::array<float, kMost> fraction;
+  check(bodice_sweep(world.collider, &particles, draw.real(), draw.rarely() ? nullptr : world.workspace,
+                     draw.rarely() ? nullptr : fraction.data(), draw.rarely() ? &contacts : nullptr));
+}
+
+void query_points(World& world, Draw& draw, Bytes& bytes) {
+  const double point[3] = {static_cast<double>(draw.real()), 0.01 * bytes.next(),
+                           static_cast<double>(draw.real())};
+  std::array<bodice_contact, 8> contacts;
+  std::size_t found = 0;
+  const std::size_t capacity = bytes.next() % (contacts.size() + 1);
+  check(bodice_query_point(world.collider, draw.rarely() ? nullptr : point,
+                           draw.rarely() ? nullptr : &contacts[0]));
+  contacts.back().ellipsoid = 12345;
+  check(bodice_query_all(world.collider, draw.rarely() ? nullptr : point, draw.real(),
+                         draw.rarely() ? nullptr : contacts.data(), capacity,
+                         draw.rarely() ? nullptr : &found));
+  if (capacity < contacts.size()) FUZZ_CHECK(contacts.back().ellipsoid == 12345);
+}
+
+void log(void*, std::int32_t, const char*) {}
+void* allocate(void*, std::size_t bytes, std::size_t alignment) {
+  return bytes > (1u << 20) ? nullptr
+                            : std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+}
+void release(void*, void* block, std::size_t) {
+  std::free(block);
+}
+std::int64_t now(void*) {
+  return 7;
+}
+void* enqueue(void*, const char*, void (*run)(void*), void* task) {
+  run(task);
+  return task;
+}
+void finish(void*, void*) {}
+
+void make_context(Draw& draw, Bytes& bytes) {
+  bodice_context_options options = bodice_default_context_options();
+  if (draw.rarely()) options.abi = static_cast<std::uint32_t>(draw.number());
+  options.workers = draw.rarely() ? draw.number() : bytes.next() % 3 + 1;
+  options.log_level = draw.number();
+  if (draw.rarely()) options.tasks_in_flight = draw.number();
+  if (draw.rarely()) options.log = log;
+  if (draw.rarely()) options.allocate = allocate;
+  if (draw.rarely()) options.release = release;
+  if (draw.rarely()) options.now_ns = now;
+  if (draw.rarely()) options.enqueue = enqueue;
+  if (draw.rarely()) options.finish = finish;
+  if (options.workers > 8 && options.workers <= 1024)
+    options.workers = 8;  // that many threads take long to start
+  draw.head(options.head);
+  bodice_context* made = nullptr;
+  check(bodice_context_create(&options, &made));
+  bodice_context_destroy(made);
+}
+
+/// Bytes of a proxy with some garbage among them; if they are read, the proxy is used.
+void load_proxy(World& world, Draw& draw, Bytes& bytes) {
+  std::size_t size = 0;
+  const std::int32_t form = draw.rarely() ? draw.number() : bytes.next() % 2;
+  const bodice_status formed = bodice_proxy_to_bytes(world.proxy, form, nullptr, 0, &size);
+  check(formed);
+  if (formed != BODICE_OK) return;
+  std::vector<std::uint8_t> text(size);
+  check(bodice_proxy_to_bytes(world.proxy, form, text.data(), draw.rarely() ? bytes.next() : text.size(),
+                              &size));
+  for (int i = bytes.next() % 4; i > 0; --i) {
+    const std::size_t at = 256u * bytes.next() + bytes.next();
+    text[at % text.size()] = bytes.next();
+  }
+  bodice_proxy* made = nullptr;
+  check(
+      bodice_proxy_from_bytes(world.context, text.data(), draw.rarely() ? bytes.next() : text.size(), &made));
+  bodice_ellipsoid ellipsoid;
+  double matrix[12];
+  const auto joint = static_cast<std::uint32_t>(draw.number());
+  const char* name = bodice_proxy_joint_name(made, joint);
+  FUZZ_CHECK(!name || std::strlen(name) < size);
+  check(bodice_proxy_get_bind(made, joint, draw.rarely() ? nullptr : matrix));
+  check(bodice_proxy_get_ellipsoids(made, draw.rarely() ? nullptr : &ellipsoid, bytes.next() % 2));
+  bodice_proxy_info info = bodice_default_proxy_info();
+  draw.head(info.head);
+  check(bodice_proxy_get_info(made, &info));
+  bodice_collider* collider = nullptr;
+  check(bodice_collider_create(world.context, made, &collider));
+  const double point[3] = {0.1, 0.2, 0.3};
+  bodice_contact contact;
+  check(bodice_query_point(collider, point, &contact));
+  bodice_collider_destroy(collider);
+  bodice_proxy_destroy(made);
+}
+
 }  // namespace
 
 FUZZ_TARGET(capi) {
-  fuzz::Bytes bytes(data, size);
+  Bytes bytes(data, size);
   static World* const world = [] {
     auto* made = new World;
     made->load(BODICE_FUZZ_PROXY);
@@ -195,7 +188,7 @@ FUZZ_TARGET(capi) {
   for (int i = 0; i < 64; ++i) floats[i] = 0.01f * static_cast<float>(bytes.next());
   if (draw.rarely()) floats[bytes.next()] = draw.real();
   for (int call = 0; call < 8; ++call) {
-    switch (bytes.next() % 5) {
+    switch (bytes.next() % 9) {
       case 0:
         query(*world, draw, bytes);
         break;
@@ -207,6 +200,18 @@ FUZZ_TARGET(capi) {
         break;
       case 3:
         exact(*world, draw, bytes);
+        break;
+      case 4:
+        sweep(*world, draw, bytes);
+        break;
+      case 5:
+        query_points(*world, draw, bytes);
+        break;
+      case 6:
+        make_context(draw, bytes);
+        break;
+      case 7:
+        load_proxy(*world, draw, bytes);
         break;
       default:
         bodice_query_options any;
