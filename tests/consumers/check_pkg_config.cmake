@@ -1,6 +1,6 @@
 cmake_minimum_required(VERSION 3.25)
 # A C90 program is compiled by what pkg-config prints, and run: from a copy of the installation, which stands elsewhere,
-# and from one whose libraries lie a folder deeper, as Debian's do.
+# and from one with libraries a folder deeper, as Debian's do.
 #   -DPREFIX=<where bodice is installed> -DLIBDIR=<CMAKE_INSTALL_LIBDIR of it> -DCAPI=modules/capi -DPROGRAM=<.c>
 #   -DVERSION= -DCOMPILER=<C> -DFLAGS= -DSCRATCH=
 find_program(pkg_config pkg-config)

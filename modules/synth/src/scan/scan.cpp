@@ -251,12 +251,12 @@ class Scanner {
 }  // namespace
 
 std::string_view name(ScanKind kind) {
-  constexpr std::array<std::string_view, kScanKindCount> kNames = {
+  constexpr std::array<std::string_view, kScanKindCount> kScanNames = {
       "booth",        "few cameras", "patches",     "closed",       "fused",          "webbed",
       "floor joined", "floor loose", "bun and hem", "long hair",    "photogrammetry", "pieces",
       "tucked",       "clothes",     "seated",      "chair beside", "chair in mesh",  "chair fused",
       "two apart",    "two close",   "two fused",   "low",          "noise",          "strong noise"};
-  return kNames[static_cast<std::size_t>(kind)];
+  return kScanNames[static_cast<std::size_t>(kind)];
 }
 
 engine::Result<Scan> make_scan(const engine::Context& context, ScanKind kind, std::uint64_t seed,

@@ -104,9 +104,9 @@ Thing contoured(const engine::Context& context, Shape shape, double edge_m) {
 }  // namespace
 
 std::string_view name(ThingKind kind) {
-  constexpr std::array<std::string_view, kThingKindCount> kNames = {"cube",  "chair", "joined chair",
-                                                                    "torso", "dog",   "hand"};
-  return kNames[static_cast<std::size_t>(kind)];
+  constexpr std::array<std::string_view, kThingKindCount> kThingNames = {"cube",  "chair", "joined chair",
+                                                                         "torso", "dog",   "hand"};
+  return kThingNames[static_cast<std::size_t>(kind)];
 }
 
 Thing make_thing(const engine::Context& context, ThingKind kind, double edge_m) {
