@@ -74,7 +74,7 @@ class StreamBase;
 /// calling thread alone plus one of its own blocks, however long background blocks are. With background
 /// blocks of at most s, and gaps between frames, all workers join after s; without gaps, after s and the
 /// time that background_share takes. Only in deterministic mode does the boundary wait.
-/// engine/README.md states what this needs of the machine.
+/// engine/FRAMES.md states what this needs of the machine.
 ///
 /// Frames, submissions and reads of the streams come from one thread.
 class FramePipeline {

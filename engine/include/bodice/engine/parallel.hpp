@@ -23,7 +23,7 @@ inline std::size_t block_count(std::size_t count, std::size_t grain) {
 /// Calls body(begin, end) for consecutive blocks of at most `grain` elements that cover [0, count).
 /// Blocks run in any order; the body must write only to memory that belongs to its block.
 /// Throws what a body threw, or Canceled. A single block runs on the caller without a task.
-/// Choose the grain so that a block costs 20 us or more (engine/README.md, What a task costs).
+/// Choose the grain so that a block costs 20 us or more (engine/MEASUREMENTS.md, What a task costs).
 template <class Body>
 void parallel_for(const Context& context, std::size_t count, std::size_t grain, Body&& body) {
   const std::size_t blocks = block_count(count, grain);
