@@ -22,7 +22,7 @@ cloth::Fabric undamped(double friction) {
 }
 
 /// Options without gravity, in which the band would slip off: see the limits of friction in
-/// modules/cloth/README.md.
+/// modules/cloth/CONTACT.md.
 cloth::SolverOptions weightless() {
   cloth::SolverOptions options = vacuum();
   options.environment.gravity_m_s2 = Vec3::Zero();
