@@ -1,7 +1,8 @@
 /* The host's own job system, in C90 with POSIX threads: bodice starts no thread, and hands its tasks to the host's.
  *
  *    bodice: enqueue(task) ---> [ queue of the host ] ---> host's threads: run(task)
- *  finish(handle) <---------- done ------------' a task that has not begun is run by finish() itself /
+ *  finish(handle) <---------- done ------------' a task that has not begun is run by finish() itself
+ */
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -140,7 +140,7 @@ rig::Clip one_key(rig::Interpolation interpolation) {
   rig::Clip clip{.name = "one key", .duration_s = 0.0, .tracks = {rig::Track{.joint = 1}}};
   rig::Track& track = clip.tracks[0];
   const std::size_t values = interpolation == rig::Interpolation::kCubic ? 3 : 1;
-  track.rotation = {interpolation, {0.5}, std::vector(values, Eigen::Quaterniond(0.0, 0.0, 0.0, 1.0))};
+  track.rotation = {interpolation, {0.5}, std::vector(values, rig::Quaternion(0.0, 0.0, 0.0, 1.0))};
   track.translation = {interpolation, {0.5}, std::vector<Vec3>(values, Vec3(0.0, 1.0, 0.0))};
   return clip;
 }

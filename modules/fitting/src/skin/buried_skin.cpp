@@ -10,7 +10,7 @@ using geometry::Index;
 constexpr int kSeedEvery = 8;  // one vertex in so many is evaluated at first
 constexpr int kMaxPasses = 64;
 
-enum class Burial : std::int8_t { kUnknown = -1, kFree = 0, kBuried = 1 };
+enum class Burial : std::int8_t { kUndecided = -1, kFree = 0, kBuried = 1 };
 
 /// The states of all vertices, evaluated by winding numbers or guessed from neighbors.
 struct Search {
@@ -40,9 +40,9 @@ struct Search {
       for (const geometry::Triangle& t : mesh.triangles)
         for (int k = 0; k < 3; ++k) {
           const Index a = t[k], b = t[(k + 1) % 3];
-          if (state[a] == Burial::kUnknown && state[b] != Burial::kUnknown)
+          if (state[a] == Burial::kUndecided && state[b] != Burial::kUndecided)
             state[a] = state[b], changed = true;
-          if (state[b] == Burial::kUnknown && state[a] != Burial::kUnknown)
+          if (state[b] == Burial::kUndecided && state[a] != Burial::kUndecided)
             state[b] = state[a], changed = true;
         }
       if (!changed) break;
@@ -91,7 +91,7 @@ std::vector<std::uint8_t> buried_triangles(const engine::Context& context, const
                 distance,
                 geometry::vertex_normals(mesh),
                 kStepOffSkin * stature_m,
-                std::vector<Burial>(n, Burial::kUnknown),
+                std::vector<Burial>(n, Burial::kUndecided),
                 std::vector<std::uint8_t>(n, 0)};
   std::vector<Index> seeds;
   for (Index v = 0; v < n; v += kSeedEvery) seeds.push_back(v);
