@@ -206,8 +206,8 @@ int main(int argc, char** argv) {
   bench::print_bars(bodies, motions);
   std::filesystem::create_directories(arguments.out);
   const std::filesystem::path out = arguments.out;
-  const bool written = bench::write_json(bodies, motions, out / "motion.json") &
-                       bench::write_plot(motions, out / "motion.png");
+  const bool numbers = bench::write_json(bodies, motions, out / "motion.json");
+  const bool written = bench::write_plot(motions, out / "motion.png") && numbers;
   if (written) std::printf("\n%s\n%s\n", (out / "motion.json").c_str(), (out / "motion.png").c_str());
   return written ? 0 : 1;
 }

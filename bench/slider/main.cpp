@@ -71,7 +71,7 @@ double processor_ms() {
 /// A session with the skirt on, after its first second.
 class Dressed {
  public:
-  Dressed(const engine::Context& context, const Arguments& arguments) : context_(context) {
+  Dressed(const engine::Context& context, const Arguments& arguments) {
     tryon::SessionOptions options;
     options.moves = !arguments.motion.empty();
     options.pipeline.frame_workers = arguments.frame_workers;
@@ -138,7 +138,6 @@ class Dressed {
   const tryon::FrameOutcome& outcome() const { return outcome_; }
 
  private:
-  const engine::Context& context_;
   std::unique_ptr<tryon::Session> session_;
   std::shared_ptr<const tryon::SegmentedSkin> skin_;
   std::vector<Vec3> normals_;

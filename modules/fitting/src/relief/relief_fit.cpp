@@ -12,6 +12,8 @@
 namespace bodice::inline v0_1::fitting {
 namespace {
 
+using Vector = ReliefSystem::Vector;
+
 constexpr int kLeastSide = 4, kMostSide = 96;  // nodes along a side of a table
 /// A leak is a sample deeper than the first fraction of stature that is reported less deep than the rest of
 /// the depth beyond the second. Particles there would be pushed to the wrong side.
@@ -155,7 +157,6 @@ std::vector<double> fit_tables(const engine::Context& context, ReliefTerms& term
                                proxy::BodyProxy::Data& data, const MoreTerms& more_terms) {
   auto system = std::make_unique<ReliefSystem>(context, terms, nodes_per_side);
   const auto unknowns = system->unknowns();
-  using Vector = ReliefSystem::Vector;
   Vector x = system->solve(Vector::Zero(unknowns), solver_steps, Vector::Ones(unknowns));
   // The limit beyond which the corrected distance would fall while a point moves outward.
   const Vector free = system->limit_slopes(x, proxy::relief_reach(data.stature_m).out_m);
