@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -73,7 +74,7 @@ TEST_CASE("a ramp ends with the velocity of the clip, and turns no joint farther
   tryon::MotionPlayer player(motion, 0.5);
   std::vector<rig::Affine> world(2);
   constexpr double kStep_s = 1e-4;
-  const double speed_rad_s = kTurn_rad - 0.2;  // of the clip, which lasts a second
+  const double speed_rad_s = kTurn_rad - 0.2;  // The clip lasts a second.
   player.joints(-kStep_s, world);
   const double before = turn_of(world[1]);
   player.joints(0.0, world);
@@ -83,6 +84,22 @@ TEST_CASE("a ramp ends with the velocity of the clip, and turns no joint farther
     CHECK(std::abs(turn_of(world[1])) <=
           0.2 + 1e-9);  // from the bind pose to the clip's first turn, no overshoot
   }
+}
+
+TEST_CASE("a ramp does not jump where the clip that it leads to starts over") {
+  tryon::BodyMotion motion = elbow(2);
+  motion.clip.tracks[0].rotation.time_s = {0.0, 0.05};
+  motion.clip.duration_s = 0.05;
+  tryon::MotionPlayer player(motion, 0.5, rig::Playback::kLoop);
+  std::vector<rig::Affine> world(2);
+  player.joints(-0.5, world);
+  double before = turn_of(world[1]), longest = 0.0;
+  for (int step = 499; step >= 0; --step) {
+    player.joints(-1e-3 * step, world);
+    longest = std::max(longest, std::abs(turn_of(world[1]) - before));
+    before = turn_of(world[1]);
+  }
+  CHECK(longest < 0.05);  // The clip turns by 0.027 in a millisecond, and by 1.4 where it starts over.
 }
 
 TEST_CASE("the suggested ramp is as long as the skin's path at walking pace, and absent without one") {

@@ -54,9 +54,8 @@ void ClipPlayback::joints_ahead(double ahead_s, std::span<rig::Affine> world) {
 }
 
 void ClipPlayback::find_joints(double time_s, double ramp_left_s, std::span<rig::Affine> world) {
-  const rig::Skeleton& skeleton = motion_->rig.skeleton;
-  sample_with_ramp(skeleton, motion_->clip, time_s, playback_, {from_, ramp_s_, ramp_left_s}, local_, ahead_);
-  rig::world_matrices(skeleton, local_, world);
+  sample_with_ramp(*motion_, time_s, playback_, {from_, ramp_s_, ramp_left_s}, local_, ahead_);
+  rig::world_matrices(motion_->rig.skeleton, local_, world);
 }
 
 }  // namespace bodice::tryon

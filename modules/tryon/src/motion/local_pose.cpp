@@ -53,13 +53,14 @@ std::vector<rig::LocalTransform> local_bind_pose(const rig::Skeleton& skeleton) 
   return local;
 }
 
-void sample_with_ramp(const rig::Skeleton& skeleton, const rig::Clip& clip, double time_s,
-                      rig::Playback playback, const Ramp& ramp, std::span<rig::LocalTransform> local,
-                      std::span<rig::LocalTransform> ahead) {
-  rig::sample(skeleton, clip, time_s, local, playback);
+void sample_with_ramp(const BodyMotion& motion, double time_s, rig::Playback playback, const Ramp& ramp,
+                      std::span<rig::LocalTransform> local, std::span<rig::LocalTransform> ahead) {
+  const rig::Skeleton& skeleton = motion.rig.skeleton;
+  rig::sample(skeleton, motion.clip, time_s, local, playback);
   if (!(ramp.left_s > 0.0)) return;
+  // A clip that starts over may jump there, and no ramp leads to what is beyond a jump.
   const double lead_s = kLead_s * std::tanh(ramp.left_s / kLead_s);
-  rig::sample(skeleton, clip, time_s + lead_s, ahead, playback);
+  rig::sample(skeleton, motion.clip, rig::time_in_clip(motion.clip, time_s, playback) + lead_s, ahead);
   const double share = smooth_step(1.0 - ramp.left_s / ramp.length_s);
   for (std::size_t j = 0; j < local.size(); ++j)
     local[j] = between(ramp.from[j], mirrored(local[j], ahead[j]), share);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <bodice/rig/rig.hpp>
+#include <bodice/tryon/motion.hpp>
 
 namespace bodice::inline v0_1::tryon {
 
@@ -24,8 +25,7 @@ struct Ramp {
 /// Local transform of each joint (#J) at a time of the clip that is reached by a ramp; without one left,
 /// those of the clip. A ramp ends with the velocities that the clip has there. Allocates nothing. `ahead`
 /// (#J) is scratch.
-void sample_with_ramp(const rig::Skeleton& skeleton, const rig::Clip& clip, double time_s,
-                      rig::Playback playback, const Ramp& ramp, std::span<rig::LocalTransform> local,
-                      std::span<rig::LocalTransform> ahead);
+void sample_with_ramp(const BodyMotion& motion, double time_s, rig::Playback playback, const Ramp& ramp,
+                      std::span<rig::LocalTransform> local, std::span<rig::LocalTransform> ahead);
 
 }  // namespace bodice::tryon

@@ -63,11 +63,9 @@ MotionPlayer::MotionPlayer(const BodyMotion& motion, double ramp_s, rig::Playbac
       ahead_(bind_.size()) {}
 
 void MotionPlayer::joints(double time_s, std::span<rig::Affine> world) {
-  const rig::Skeleton& skeleton = motion_->rig.skeleton;
   const double left_s = ramp_s_ > 0.0 ? std::clamp(-time_s, 0.0, ramp_s_) : 0.0;
-  sample_with_ramp(skeleton, motion_->clip, std::max(0.0, time_s), playback_, {bind_, ramp_s_, left_s},
-                   local_, ahead_);
-  rig::world_matrices(skeleton, local_, world);
+  sample_with_ramp(*motion_, std::max(0.0, time_s), playback_, {bind_, ramp_s_, left_s}, local_, ahead_);
+  rig::world_matrices(motion_->rig.skeleton, local_, world);
 }
 
 double suggested_ramp_s(const engine::Context& context, const BodyMotion& motion,
