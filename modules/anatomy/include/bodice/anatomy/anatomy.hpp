@@ -20,7 +20,7 @@ struct Options {
 
 /// What is known of a body after its analysis.
 struct Anatomy {
-  double stature_m = 0.0;  ///< of the body as if it stood; in the unit of the mesh: meters
+  double stature_m = 0.0;  ///< the height of the body if it stood, in the unit of the mesh: meters
   geometry::Vec3 up = geometry::Vec3::UnitY();  ///< feet to head along the trunk, unit
   std::vector<body::Landmark> landmarks;  ///< one each of LandmarkId; confidence 0 where nothing was found
   std::vector<body::Part> part;           ///< #V; every vertex has one

@@ -27,8 +27,8 @@ struct SkinnedBody {
   const geometry::TriMesh& skin;    ///< meters, y up
   const rig::Skeleton& skeleton;    ///< valid
   const rig::SkinWeights& weights;  ///< mended, of the skin's vertices
-  /// #V: the limb of each vertex. If it is given, binding bends the limbs in exercises and raises the burial
-  /// of texels that stand out of the skin there. If it is empty, burial is that at rest.
+  /// #V: the limb of each vertex. If it is given, binding bends the limbs in exercises, and raises the burial
+  /// of those texels that stand out of the skin in them. If it is empty, texels keep the burial at rest.
   std::span<const body::Part> part = {};
 };
 
