@@ -258,6 +258,18 @@ expect 0 "query the proxy" "$bodice" query p.json points.txt
 [ "$(wc -l <out.txt)" -eq 2 ] || { echo "FAILED: not a line a point"; failures=$((failures + 1)); }
 awk 'NR == 1 && $1 < 3 { bad = 1 } NR == 2 && $1 > 0 { bad = 1 } END { exit bad }' out.txt ||
   { echo "FAILED: a far point is not far, or the hip is not inside"; cat out.txt; failures=$((failures + 1)); }
+cp out.txt exact.txt
+expect 0 "points from standard input" "$bodice" query p.json - <points.txt
+cmp -s out.txt exact.txt || { echo "FAILED: standard input gives other distances"; failures=$((failures + 1)); }
+expect 0 "points within a meter" "$bodice" query p.json points.txt --within 1
+[ "$(head -1 out.txt) $(tail -1 out.txt)" = "inf nan nan nan nan nan nan none $(tail -1 exact.txt)" ] ||
+  { echo "FAILED: --within 1 leaves the wrong point out"; cat out.txt; failures=$((failures + 1)); }
+expect 0 "distances to first order" "$bodice" query p.json points.txt --fast
+paste -d' ' out.txt exact.txt | awk '{ d = $1 - $9; if (NR == 1 && (d == 0 || d > 1 || d < -1) || $1 * $9 < 0) bad = 1 } END { exit bad || NR != 2 }' ||
+  { echo "FAILED: a distance to first order is exact, or far off"; cat out.txt; failures=$((failures + 1)); }
+expect 2 "a negative --within" "$bodice" query p.json points.txt --within -1
+expect 1 "a malformed point from standard input" "$bodice" query p.json - <<<"0 5"
+prints "standard input: line 1"
 printf '1e30 0 0\n' >points.txt
 expect 0 "a point beyond single precision" "$bodice" query r.bodice points.txt
 prints "^inf nan nan nan nan nan nan none$"

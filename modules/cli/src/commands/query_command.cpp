@@ -1,6 +1,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
+#include <limits>
 #include <memory>
 #include <sstream>
 
@@ -26,17 +28,13 @@ struct QueryCommand {
   std::string proxy, points, output;
   MotionTime motion;
   bool refit = false;
-  std::string body;  ///< the file to refit for; empty: the motion's
+  std::string body;                                         ///< the file to refit for; empty: the motion's
+  double within = std::numeric_limits<double>::infinity();  ///< in the unit of the proxy's file
+  bool fast = false;
 };
 
-engine::Result<std::vector<Vec3>> read_points(const std::string& file) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    return engine::Error{engine::ErrorCode::kUnreadable, file + " is a folder.", "Name a file of points."};
-  std::ifstream in(file);
-  if (!in)
-    return engine::Error{engine::ErrorCode::kNotFound, file + ": cannot be opened.",
-                         "Check the path, and that the file may be read."};
+/// Points, one a line; `name` is what sentences call the stream.
+engine::Result<std::vector<Vec3>> read_points(std::istream& in, const std::string& name) {
   std::vector<Vec3> points;
   std::string line;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
@@ -46,21 +44,33 @@ engine::Result<std::vector<Vec3>> read_points(const std::string& file) {
     std::string rest;
     if (!(fields >> p.x() >> p.y() >> p.z()) || (fields >> rest))
       return engine::Error{engine::ErrorCode::kUnreadable,
-                           file + ": line " + std::to_string(number) + " is not three numbers.",
+                           name + ": line " + std::to_string(number) + " is not three numbers.",
                            "Write one point a line: x y z."};
     points.push_back(p);
   }
   if (in.bad())
-    return engine::Error{engine::ErrorCode::kUnreadable, file + ": cannot be read to its end.",
+    return engine::Error{engine::ErrorCode::kUnreadable, name + ": cannot be read to its end.",
                          "Check the file."};
   return points;
 }
 
+engine::Result<std::vector<Vec3>> read_points(const std::string& file) {
+  if (file == "-") return read_points(std::cin, "standard input");
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    return engine::Error{engine::ErrorCode::kUnreadable, file + " is a folder.", "Name a file of points."};
+  std::ifstream in(file);
+  if (!in)
+    return engine::Error{engine::ErrorCode::kNotFound, file + ": cannot be opened.",
+                         "Check the path, and that the file may be read."};
+  return read_points(in, file);
+}
+
 std::string answer(const collision::Collider& collider, const proxy::BodyProxy& proxy,
-                   const Vec3& file_point) {
+                   const collision::QueryOptions& options, const Vec3& file_point) {
   const geometry::Frame& frame = proxy.frame();
   const Eigen::Vector3f local = (frame.to_inside(file_point) - collider.origin()).cast<float>();
-  const collision::Contact c = collider.query({local.x(), local.y(), local.z()});
+  const collision::Contact c = collider.query({local.x(), local.y(), local.z()}, options);
   if (c.ellipsoid == collision::kNoEllipsoid) return "inf nan nan nan nan nan nan none\n";
   const Vec3 point =
       frame.to_file(collider.origin() + Vec3(double{c.point[0]}, double{c.point[1]}, double{c.point[2]}));
@@ -107,10 +117,14 @@ engine::Result<std::string> posed_answers(const proxy::ProxyWithBases& both, con
   return text;
 }
 
-std::string answers(const proxy::BodyProxy& proxy, const std::vector<Vec3>& points) {
+std::string answers(const proxy::BodyProxy& proxy, const QueryCommand& command,
+                    const std::vector<Vec3>& points) {
   const collision::Collider collider(proxy);
+  collision::QueryOptions options{.within_m =
+                                      static_cast<float>(command.within * proxy.frame().meters_per_unit)};
+  if (command.fast) options.accuracy = collision::Accuracy::kFirstOrder;
   std::string text;
-  for (const Vec3& p : points) text += answer(collider, proxy, p);
+  for (const Vec3& p : points) text += answer(collider, proxy, options, p);
   return text;
 }
 
@@ -126,7 +140,7 @@ engine::Result<void> query(const QueryCommand& command) {
   auto points = read_points(command.points);
   if (!points) return std::move(points).error();
   const auto text = command.motion.choice.motion.empty()
-                        ? engine::Result<std::string>(answers(both->proxy, *points))
+                        ? engine::Result<std::string>(answers(both->proxy, command, *points))
                         : posed_answers(*both, command, *points);
   if (!text) return text.error();
   if (!command.output.empty()) return engine::write_file(command.output, std::string_view(*text));
@@ -140,7 +154,8 @@ void add_query_command(CLI::App& app, int& exit_code) {
   auto command = std::make_shared<QueryCommand>();
   CLI::App* sub = app.add_subcommand("query", "Evaluate a proxy's signed distances and closest points");
   sub->add_option("PROXY", command->proxy, "a proxy that `bodice fit` wrote")->check(not_empty())->required();
-  sub->add_option("POINTS", command->points, "text, one point a line: x y z, in the proxy's units and axes")
+  sub->add_option("POINTS", command->points,
+                  "text, one point a line: x y z, in the proxy's units and axes; - reads standard input")
       ->check(not_empty())
       ->required();
   sub->add_option("-o,--output", command->output, "where to write (default: standard output)")
@@ -162,9 +177,17 @@ void add_query_command(CLI::App& app, int& exit_code) {
                   "with --refit: the body that the proxy was fitted to (default: the file of --motion)")
       ->check(not_empty())
       ->needs(refit);
+  sub->add_option("--within", command->within,
+                  "leave out what is farther away, in the proxy's units (default: nothing)")
+      ->check(zero_or_more())
+      ->excludes(motion);
+  sub->add_flag("--fast", command->fast,
+                "distances to first order: half the time, and an error that vanishes toward the surface")
+      ->excludes(motion);
   sub->footer(
       "A line a point: signed distance (negative inside), closest point x y z, normal x y z, ellipsoid (from "
-      "0);\n`inf nan ... none` where single precision does not reach, millions of body lengths away.\n"
+      "0);\n`inf nan ... none` beyond --within, and where single precision does not reach, millions of body "
+      "lengths away.\n"
       "Example: bodice query proxy.json points.txt");
   sub->callback([command, &exit_code] {
     const auto done = query(*command);
