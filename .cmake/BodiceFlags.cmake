@@ -116,13 +116,14 @@ function(bodice_define_build_flags)
   if(NOT PROJECT_IS_TOP_LEVEL)
     return()
   endif()
+  set(warnings -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion
+      -Wno-missing-field-initializers)  # designated initializers leave the rest at their defaults on purpose
   target_compile_options(bodice_build_flags INTERFACE
-    -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion
-    -Wno-missing-field-initializers  # designated initializers leave the rest at their defaults on purpose
+    "$<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:${warnings}>"
     # g++ 12 sees overlapping copies in `"text" + std::string` that are not there (GCC bug 105651).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
     # clang takes `double{f}` for an implicit promotion, although it is written out.
-    $<$<CXX_COMPILER_ID:Clang>:-Wno-double-promotion>)
+    $<$<CXX_COMPILER_ID:Clang,AppleClang>:-Wno-double-promotion>)
   if(BODICE_PRECOMPILE)
     target_compile_options(bodice_build_flags INTERFACE -Wno-stringop-overflow -Wno-array-bounds)
   endif()
