@@ -14,9 +14,12 @@ namespace bodice::inline v0_1::engine {
 /// task that starts too late does nothing. So a run cannot hang: the host may run a task inside enqueue, on
 /// any thread, in any order, late, or only inside finish.
 struct HostCallbacks {
-  void* host = nullptr;          ///< passed to the functions below
-  int concurrency = 1;           ///< bodies that may run at the same time, the calling thread's included
-  int max_tasks_in_flight = 64;  ///< a bound on tasks that are enqueued and not finished yet
+  void* host = nullptr;  ///< passed to the functions below
+  int concurrency = 1;   ///< bodies that may run at the same time, the calling thread's included
+  /// A bound on tasks of this executor that are enqueued and not finished yet. A task that the host has not
+  /// begun stays enqueued after its call has returned, and counts; where there are as many, calls enqueue no
+  /// more and run on the calling thread.
+  int max_tasks_in_flight = 64;
 
   /// Arranges for run(task) to be called once. `name` is static or lives until the task has run.
   /// Returns a handle for finish.

@@ -43,11 +43,11 @@ inline constexpr std::array<std::string_view, kAllPartCount> kPartNames = {
     "part_10",     "part_11",   "part_12",   "part_13",  "part_14",  "part_15",  "part_16"};
 
 constexpr std::string_view name(Part part) {
-  return kPartNames[static_cast<int>(part)];
+  return kPartNames[static_cast<std::size_t>(part)];
 }
 
 constexpr std::optional<Part> part_from_name(std::string_view text) {
-  for (int i = 0; i < kAllPartCount; ++i)
+  for (std::size_t i = 0; i < kAllPartCount; ++i)
     if (kPartNames[i] == text) return static_cast<Part>(i);
   return std::nullopt;
 }

@@ -35,13 +35,13 @@ struct SolverOptions {
   /// What touches in a frame is then queried about every millimeter. Only with face_contact. The proof is
   /// strict for proxies without relief. Distances with relief fall faster than it assumes (1.5 times the
   /// path) on a few short paths of a thousand, at cliffs of up to 5 mm between tables.
-  std::optional<double> certify_m;
+  std::optional<double> certify_m = {};
   bool self_collision = true;  ///< whether layers of cloth keep apart, and do not pass through each other
   /// Distance that layers of cloth keep from each other, at most a quarter of the median edge. Where they
   /// were nearer at rest, they keep as much less.
   double layer_gap_m = 0.0015;
   collision::Response response = collision::Response::kClosestPoint;
-  Environment environment;
+  Environment environment = {};
   std::uint64_t seed = 0;  ///< of the gusts
   /// Time that a frame may take, microseconds; 0: no budget. After a frame above it, the next ones leave out,
   /// in this order: self-contact, bending in every second substep, half of the substeps. The clock then

@@ -124,15 +124,19 @@ struct StridedParticles;
 /// is given.
 class Collider {
  public:
-  /// Prepares a proxy. O(#ellipsoids + #texels).
+  /// Prepares a proxy; allocates. O(#ellipsoids + #texels), for 89 ellipsoids 10 microseconds, with relief 2
+  /// milliseconds: do it beside the frames.
   explicit Collider(const proxy::BodyProxy& proxy);
   ~Collider();
   Collider(Collider&&) noexcept;
   Collider& operator=(Collider&&) noexcept;
 
-  const geometry::Vec3& origin() const noexcept;  ///< world position of the local frame's origin
-  std::size_t size() const noexcept;              ///< number of ellipsoids
-  std::uint64_t proxy_hash() const noexcept;      ///< hash of the proxy that it was made from
+  /// World position of the local frame's origin: the middle of the proxy at rest. Local coordinates are
+  /// floats, so that accuracy falls with the distance from it, at 1 km by 0.1 mm. Make another collider of a
+  /// proxy farther away.
+  const geometry::Vec3& origin() const noexcept;
+  std::size_t size() const noexcept;          ///< number of ellipsoids
+  std::uint64_t proxy_hash() const noexcept;  ///< hash of the proxy that it was made from
   /// Whether relief tables correct the distance. Without them the distance is 1-Lipschitz: it changes by no
   /// more than the point moves.
   bool has_relief() const noexcept;

@@ -13,7 +13,9 @@ struct TriMesh {
   std::vector<Triangle> triangles;  ///< #F, indices into positions
 
   bool empty() const { return triangles.empty(); }
-  const Vec3& corner(std::size_t triangle, int k) const { return positions[triangles[triangle][k]]; }
+  const Vec3& corner(std::size_t triangle, int k) const {
+    return positions[triangles[triangle][static_cast<std::size_t>(k)]];
+  }
 };
 
 /// The triangle's unit normal times twice its area.

@@ -33,12 +33,12 @@ inline constexpr std::array<std::string_view, kMotionCount> kMotionNames = {
 
 /// The name of a motion, such as "arms-up".
 constexpr std::string_view name(Motion motion) {
-  return kMotionNames[static_cast<int>(motion)];
+  return kMotionNames[static_cast<std::size_t>(motion)];
 }
 
 /// The motion of a name, if there is one.
 constexpr std::optional<Motion> motion_from_name(std::string_view text) {
-  for (int i = 0; i < kMotionCount; ++i)
+  for (std::size_t i = 0; i < kMotionCount; ++i)
     if (kMotionNames[i] == text) return static_cast<Motion>(i);
   return std::nullopt;
 }
