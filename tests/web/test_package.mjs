@@ -26,6 +26,13 @@ function around(count) {
                            (_, i) => positions[(21 * Math.floor(i / 3) + i % 3) % positions.length] + 0.06 * (random() - 0.5));
 }
 
+test('an engine without vectors is refused in a sentence', async () => {
+  const validate = WebAssembly.validate;
+  assert.equal(validate(Uint8Array.of(0, 97, 115, 109, 2, 0, 0, 0)), false);
+  WebAssembly.validate = () => false;
+  await assert.rejects(load(), /SIMD128/).finally(() => WebAssembly.validate = validate);
+});
+
 test('the library states its version and build', () => {
   assert.match(bodice.build, /^bodice 0\.1\.0/);
   assert.equal(bodice.partNames[0], 'head');

@@ -9,6 +9,7 @@ export interface LoadOptions {
   /** The bytes of bodice_wasm.wasm; absent: read from beside bodice.mjs. */
   wasm?: Uint8Array | ArrayBuffer;
 }
+/** Throws BodiceError where WebAssembly has no vectors (SIMD128). */
 export function load(options?: LoadOptions): Promise<Bodice>;
 
 export interface Bodice {

@@ -23,8 +23,14 @@ async function readWasm() {
   return new Uint8Array(await answer.arrayBuffer());
 }
 
+// The smallest program with a vector in it: a function that returns sixteen zeros.
+const VECTOR_PROGRAM = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0,
+                                     10, 22, 1, 20, 0, 253, 12, ...new Uint8Array(16), 11);
+
 /** Starts the library; `wasm` are the bytes of bodice_wasm.wasm, which are read from beside this file if absent. */
 export async function load({wasm} = {}) {
+  if (!WebAssembly.validate(VECTOR_PROGRAM))
+    throw new BodiceError('WebAssembly has no vectors (SIMD128) here. Use Chrome 91, Firefox 89, Safari 16.4, node 18 or later.');
   return new Bodice(await start({wasmBinary: wasm ?? await readWasm(), printErr() {}}));
 }
 
