@@ -194,6 +194,25 @@ TEST_CASE("capi: a bound proxy follows the bones in every form of matrix, as the
   REQUIRE(bodice_proxy_get_bind(scene.proxy.get(), 0, bind) == BODICE_OK);
   CHECK(bind[7] == -0.3);
 
+  // An ellipsoid moves with its joints as the skin at the height of its center does.
+  const auto ellipsoids = bound.ellipsoids();
+  for (std::uint32_t k = 0; k < ellipsoids.size(); ++k) {
+    CAPTURE(k);
+    std::uint16_t joint[2];
+    float weight[2];
+    std::size_t count = 0;
+    REQUIRE(bodice_proxy_get_joint_weights(scene.proxy.get(), k, joint, weight, 2, &count) == BODICE_OK);
+    REQUIRE(count <= 2);
+    double of_forearm = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      sum += double{weight[i]};
+      if (joint[i] == 1) of_forearm = double{weight[i]};
+    }
+    CHECK(sum == doctest::Approx(1.0).epsilon(1e-5));
+    const double expected = std::clamp(0.5 + ellipsoids[k].shape.center.y() / 0.1, 0.01, 0.99);
+    CHECK(std::abs(of_forearm - expected) < 0.1);
+  }
+
   std::vector<float> rows, columns, columns43;
   for (const auto& m : bent) {
     for (int r = 0; r < 3; ++r)

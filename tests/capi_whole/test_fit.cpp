@@ -1,4 +1,5 @@
 // Fits, now and by ticket, and proxies bound to the bones of the host.
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
@@ -182,6 +183,72 @@ TEST_CASE("capi: a proxy is bound to the bones of the host, and stays where it i
   bodice_fit_options unbound = solid();
   unbound.bind = 0;
   CHECK(skin.fit(context, unbound)->info()->joints == 0);
+}
+
+TEST_CASE("capi: a saved proxy is bound to the bones of the host without another fit") {
+  const synth::Body body = make_body();
+  MeshArrays arrays(body.mesh);
+  RigArrays bones(body);
+  const Context context = make_context();
+  const Skin skin = make_skin(context, arrays, with_rig(bones.rig));
+  const auto saved = make_skin(context, arrays).fit(context, solid());
+  REQUIRE_MESSAGE(saved, bodice_last_error());
+  REQUIRE(saved->info()->joints == 0);
+  const auto bound = saved->bind(context, skin);
+  REQUIRE_MESSAGE(bound, bodice_last_error());
+  CHECK(bound->info()->joints == bones.parents.size());
+  CHECK(bound->info()->ellipsoids == saved->info()->ellipsoids);
+  // Each ellipsoid follows the joint of the largest weight, which the skin there has.
+  std::size_t agree = 0;
+  std::vector<bodice_ellipsoid> ellipsoids(bound->info()->ellipsoids);
+  must(bodice_proxy_get_ellipsoids(bound->get(), ellipsoids.data(), ellipsoids.size()));
+  for (std::uint32_t k = 0; k < ellipsoids.size(); ++k) {
+    std::vector<std::uint16_t> joint(bones.parents.size());
+    std::vector<float> weight(joint.size());
+    std::size_t count = 0;
+    must(bodice_proxy_get_joint_weights(bound->get(), k, joint.data(), weight.data(), joint.size(), &count));
+    REQUIRE(count > 0);
+    REQUIRE(count <= joint.size());
+    const auto largest =
+        std::max_element(weight.begin(), weight.begin() + static_cast<std::ptrdiff_t>(count));
+    agree += joint[static_cast<std::size_t>(largest - weight.begin())] == ellipsoids[k].bone;
+  }
+  CHECK(10 * agree >= 9 * ellipsoids.size());
+
+  // The forearms of the bound proxy bend as those of a proxy that was fitted to the skin with the rig.
+  const auto fitted = skin.fit(context, solid());
+  auto one = Collider::create(context, *bound), other = Collider::create(context, *fitted);
+  REQUIRE(one);
+  REQUIRE(other);
+  for (std::size_t j = 0; j < bones.parents.size(); ++j)
+    if (std::string(bones.names[j]).find("forearm") != std::string::npos) bones.matrices[12 * j + 7] += 0.05;
+  must(bodice_collider_pose(one->get(), &bones.bind));
+  must(bodice_collider_pose(other->get(), &bones.bind));
+  double sum = 0.0;
+  for (std::size_t v = 0; v < arrays.xyz.size(); v += 30) {
+    bodice_contact a, b;
+    must(bodice_query_point(one->get(), &arrays.xyz[v], &a));
+    must(bodice_query_point(other->get(), &arrays.xyz[v], &b));
+    sum += std::abs(double{a.distance} - double{b.distance});
+  }
+  CHECK(sum / static_cast<double>((arrays.xyz.size() + 29) / 30) < 0.004);
+
+  bodice_proxy* none = nullptr;
+  CHECK(bodice_proxy_bind(context.get(), saved->get(), make_skin(context, arrays).get(), &none) ==
+        BODICE_INVALID_ARGUMENT);
+  CHECK(std::string(bodice_last_error()).find("has no rig") != std::string::npos);
+  MeshArrays elsewhere(body.mesh);
+  for (std::size_t i = 0; i < elsewhere.xyz.size(); i += 3) elsewhere.xyz[i] += 1.0;
+  RigArrays moved(body);
+  for (std::size_t j = 0; j < moved.parents.size(); ++j) moved.matrices[12 * j + 3] += 1.0;
+  CHECK(saved->bind(context, make_skin(context, elsewhere, with_rig(moved.rig))).status() ==
+        BODICE_INVALID_ARGUMENT);
+  CHECK(std::string(bodice_last_error()).find("not of this skin") != std::string::npos);
+  CHECK(bodice_proxy_bind(nullptr, saved->get(), skin.get(), &none) == BODICE_INVALID_ARGUMENT);
+  CHECK(bodice_proxy_bind(context.get(), nullptr, skin.get(), &none) == BODICE_INVALID_ARGUMENT);
+  CHECK(bodice_proxy_bind(context.get(), saved->get(), nullptr, &none) == BODICE_INVALID_ARGUMENT);
+  CHECK(bodice_proxy_bind(context.get(), saved->get(), skin.get(), nullptr) == BODICE_INVALID_ARGUMENT);
+  CHECK(none == nullptr);
 }
 
 TEST_CASE("capi: bones that cannot be are refused by name") {

@@ -161,6 +161,11 @@ void load_proxy(World& world, Draw& draw, Bytes& bytes) {
   const char* name = bodice_proxy_joint_name(made, joint);
   FUZZ_CHECK(!name || std::strlen(name) < size);
   check(bodice_proxy_get_bind(made, joint, draw.rarely() ? nullptr : matrix));
+  std::uint16_t moved_by[2];
+  float share[2];
+  std::size_t count = 0;
+  check(bodice_proxy_get_joint_weights(made, joint, draw.rarely() ? nullptr : moved_by, share,
+                                       bytes.next() % 3, draw.rarely() ? nullptr : &count));
   check(bodice_proxy_get_ellipsoids(made, draw.rarely() ? nullptr : &ellipsoid, bytes.next() % 2));
   bodice_proxy_info info = bodice_default_proxy_info();
   draw.head(info.head);

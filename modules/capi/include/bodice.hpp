@@ -87,6 +87,8 @@ class Context : public detail::Handle<bodice_context, bodice_context_destroy> {
   }
 };
 
+class Skin;
+
 /// See bodice_proxy.
 class Proxy : public detail::Handle<bodice_proxy, bodice_proxy_destroy> {
  public:
@@ -103,6 +105,8 @@ class Proxy : public detail::Handle<bodice_proxy, bodice_proxy_destroy> {
     if (status != BODICE_OK) return status;
     return info;
   }
+  /// See bodice_proxy_bind(); with libbodice.
+  Expected<Proxy> bind(const Context& context, const Skin& skin) const;
 };
 
 /// See bodice_skin; with libbodice.
@@ -139,6 +143,13 @@ class Skin : public detail::Handle<bodice_skin, bodice_skin_destroy> {
     return Proxy(made);
   }
 };
+
+inline Expected<Proxy> Proxy::bind(const Context& context, const Skin& skin) const {
+  bodice_proxy* made = nullptr;
+  const bodice_status status = bodice_proxy_bind(context.get(), get(), skin.get(), &made);
+  if (status != BODICE_OK) return status;
+  return Proxy(made);
+}
 
 /// See bodice_session; with libbodice. Each function calls that of its name in bodice.h; others take get().
 class Session : public detail::Handle<bodice_session, bodice_session_destroy> {

@@ -136,6 +136,19 @@ class Fits(unittest.TestCase):
         body.pose(moved)
         self.assertLess(np.abs(body.signed_distance(points + [1.0, 0, 0]) - rest).max(), 1e-4)
 
+    def test_a_saved_proxy_is_bound_without_another_fit(self):
+        saved = bodice.Body(self.body.to_bytes())
+        self.assertEqual(saved.joint_weights().shape, (len(saved), 0))
+        with self.assertRaisesRegex(bodice.Error, "has no rig"):
+            saved.bind(self.body.skin)
+        bound = saved.bind(bodice.Skin(self.vertices, self.faces, find_rig=True))
+        weights = bound.joint_weights()
+        np.testing.assert_allclose(weights.sum(axis=1), 1.0, atol=1e-5)
+        bones = bound.ellipsoids()["bone"]
+        self.assertGreater((weights.argmax(axis=1) == bones).mean(), 0.9)
+        with self.assertRaisesRegex(bodice.Error, "not of this skin"):
+            saved.bind(bodice.Skin(self.vertices + [1.0, 0, 0], self.faces, find_rig=True))
+
     def test_a_sheet_falls_onto_the_shoulders_and_stays_outside(self):
         n = 40
         grid = np.stack(np.meshgrid(np.linspace(-0.5, 0.5, n), np.linspace(-0.5, 0.5, n), indexing="ij"), -1)

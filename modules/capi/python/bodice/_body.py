@@ -5,11 +5,14 @@ from __future__ import annotations
 import ctypes
 import dataclasses
 import threading
-from typing import Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _library as _c
+
+if TYPE_CHECKING:
+    from ._skin import Skin
 
 Error = _c.Error
 
@@ -66,6 +69,26 @@ class Body:
             _c.check(_c.library.bodice_proxy_get_bind(
                 self._proxy, joint, out[joint].ctypes.data_as(ctypes.POINTER(ctypes.c_double))))
         return out
+
+    def joint_weights(self) -> np.ndarray:
+        """(ellipsoids, joints): by how much of each joint's motion the center of an ellipsoid moves. Rows add up to 1;
+        one may hold a weight a little below 0, since it is the affine fit to the weights of the skin."""
+        out = np.zeros((len(self), len(self.joints)))
+        joint, weight = np.empty(out.shape[1], np.uint16), np.empty(out.shape[1], np.float32)
+        count = ctypes.c_size_t()
+        for ellipsoid, row in enumerate(out):
+            _c.check(_c.library.bodice_proxy_get_joint_weights(
+                self._proxy, ellipsoid, joint.ctypes.data, weight.ctypes.data, len(joint), ctypes.byref(count)))
+            row[joint[:count.value]] = weight[:count.value]
+        return out
+
+    def bind(self, skin: Skin) -> Body:
+        """The same proxy bound to the joints of the skin that it was fitted to, without another fit."""
+        bound = ctypes.c_void_p()
+        _c.check(_c.whole("bodice_proxy_bind")(self._context, self._proxy, skin._skin, ctypes.byref(bound)))
+        body = Body.__new__(Body)
+        body._adopt(self._context, _c.Handle.owning("bodice_proxy", bound))
+        return body
 
     def to_bytes(self, json: bool = False) -> bytes:
         """The proxy as a file has it."""

@@ -135,6 +135,36 @@ bodice_status bodice_proxy_get_bind(const bodice_proxy* handle, uint32_t joint, 
   });
 }
 
+bodice_status bodice_proxy_get_joint_weights(const bodice_proxy* handle, uint32_t ellipsoid, uint16_t* joint,
+                                             float* weight, size_t capacity, size_t* count) {
+  return capi::guarded([&]() -> Outcome {
+    BODICE_CHECK(capi::check_handle(handle, "The proxy"));
+    if (!count) return invalid("The pointer to the count is null.", "Pass the address of a size_t.");
+    if ((!joint || !weight) && capacity > 0)
+      return invalid("An array of joints or weights is null.", "Pass both, or a capacity of 0.");
+    const auto ellipsoids = handle->proxy.ellipsoids();
+    if (ellipsoid >= ellipsoids.size())
+      return invalid("There is no ellipsoid " + std::to_string(ellipsoid) + ": the proxy has " +
+                         std::to_string(ellipsoids.size()) + ".",
+                     "See bodice_proxy_info.ellipsoids.");
+    *count = 0;
+    const proxy::Binding* binding = handle->proxy.binding();
+    if (!binding) return {};
+    const std::uint32_t first = binding->first_term[ellipsoid];
+    *count = binding->first_term[ellipsoid + 1] - first;
+    const geometry::Vec3& center = ellipsoids[ellipsoid].shape.center;
+    for (std::size_t i = 0; i < std::min(capacity, *count); ++i) {
+      const proxy::CarryTerm& term = binding->terms[first + i];
+      // The last row of the term's matrix is the affine fit to the joint's weights of the skin.
+      double at_center = term.matrix[15];
+      for (int axis = 0; axis < 3; ++axis) at_center += term.matrix[4 * axis + 3] * center[axis];
+      joint[i] = term.joint;
+      weight[i] = static_cast<float>(at_center);
+    }
+    return {};
+  });
+}
+
 const char* bodice_part_name(int32_t part) {
   static_assert(BODICE_PARTS == body::kPartCount && BODICE_ALL_PARTS == body::kAllPartCount);
   // The engine's names are string literals, which end with a zero.

@@ -1,5 +1,6 @@
 #include "whole/fit.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <bodice/binding/bind.hpp>
@@ -35,6 +36,19 @@ Outcome read_wish(double value, const char* name, std::optional<double>& out) {
     return invalid(std::string("bodice_fit_options.") + name + " is " + std::to_string(value) + ".",
                    "Give a positive number, or 0 for none.");
   if (value > 0.0) out = value;
+  return {};
+}
+
+/// Refuses a proxy that was fitted to something else.
+Outcome check_fits(const proxy::BodyProxy& proxy, const tryon::SegmentedSkin& skin) {
+  const auto ellipsoids = proxy.ellipsoids();
+  const auto outside = std::count_if(ellipsoids.begin(), ellipsoids.end(), [&](const auto& ellipsoid) {
+    return skin.distance->signed_distance(ellipsoid.shape.center) > 0.0;
+  });
+  if (10 * static_cast<std::size_t>(outside) > ellipsoids.size())
+    return invalid("The proxy is not of this skin: the centers of " + std::to_string(outside) + " of its " +
+                       std::to_string(ellipsoids.size()) + " ellipsoids are outside.",
+                   "Bind it to the skin that it was fitted to, in the same pose and coordinates.");
   return {};
 }
 
@@ -95,5 +109,25 @@ bodice_status bodice_fit(const bodice_context* context, const bodice_skin* skin,
     BODICE_CHECK(capi::make_fit(progress, skin->skin, wanted, options.bind != 0, fitted));
     *out = new bodice_proxy{context->state, std::move(*fitted.proxy)};
     return capi::write(fitted.report, report, true);
+  });
+}
+
+bodice_status bodice_proxy_bind(const bodice_context* context, const bodice_proxy* proxy,
+                                const bodice_skin* handle, bodice_proxy** out) {
+  return capi::guarded([&]() -> Outcome {
+    BODICE_CHECK(capi::begin_result(out, "the bound proxy"));
+    BODICE_CHECK(capi::check_handle(context, "The context"));
+    BODICE_CHECK(capi::check_handle(proxy, "The proxy"));
+    BODICE_CHECK(capi::check_handle(handle, "The skin"));
+    const tryon::SegmentedSkin& skin = handle->skin;
+    if (!skin.rig)
+      return invalid("The skin has no rig to bind the proxy to.",
+                     "Pass bodice_skin_options.rig, or set find_rig, when the skin is made.");
+    BODICE_CHECK(capi::check_fits(proxy->proxy, skin));
+    auto bound = binding::bind(context->state->engine_context(), proxy->proxy,
+                               {skin.input.skin, skin.rig->skeleton, skin.rig->weights, skin.anatomy.part});
+    if (!bound) return bound.error();
+    *out = new bodice_proxy{context->state, std::move(bound).value()};
+    return {};
   });
 }

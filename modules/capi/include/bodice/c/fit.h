@@ -56,6 +56,15 @@ BODICE_EXPERIMENTAL bodice_status bodice_fit(const bodice_context* context, cons
                                              const bodice_fit_options* options, bodice_proxy** proxy,
                                              bodice_fit_report* report);
 
+/** Binds a proxy that was fitted before, and saved, to the joints of a skin, in place of another fit. The
+ * skin has a rig (bodice_skin_options) and stands as the one that the proxy was fitted to, in the same
+ * coordinates. Fails with BODICE_INVALID_ARGUMENT if the skin has no rig or more than a tenth of the
+ * ellipsoids have their centers outside of it. A fit whose skin has the rig already follows joints a little
+ * closer, since it sees them bent. Const use of all three. Cost for 89 ellipsoids with relief: 0.3 seconds of
+ * one core. */
+BODICE_EXPERIMENTAL bodice_status bodice_proxy_bind(const bodice_context* context, const bodice_proxy* proxy,
+                                                    const bodice_skin* skin, bodice_proxy** bound);
+
 /** A body that becomes skin and proxy beside the frames, on a thread of its own and the workers of the
  * context. Polling and canceling are const uses. */
 typedef struct bodice_ticket bodice_ticket;

@@ -69,6 +69,14 @@ BODICE_STABLE const char* bodice_proxy_joint_name(const bodice_proxy* proxy, uin
 /** The matrix of a joint in the pose that the proxy was bound in: joint space to proxy space, 3 rows of 4. */
 BODICE_STABLE bodice_status bodice_proxy_get_bind(const bodice_proxy* proxy, uint32_t joint,
                                                   double matrix[12]);
+/** The joints that move an ellipsoid of a bound proxy, and their weights: by how much of each joint's motion
+ * its center moves. Weights add up to 1; one may be a little below 0, since they are the affine fit to those
+ * of the skin. Copies the first `capacity` of them and sets *count to their number; both arrays may be null
+ * with a capacity of 0. An unbound proxy has none. */
+BODICE_EXPERIMENTAL bodice_status bodice_proxy_get_joint_weights(const bodice_proxy* proxy,
+                                                                 uint32_t ellipsoid, uint16_t* joint,
+                                                                 float* weight, size_t capacity,
+                                                                 size_t* count);
 
 /** Number of parts of a body, and the name of one, such as "forearm_l"; null if there is no such part. */
 enum { BODICE_PARTS = 15 };
