@@ -59,7 +59,7 @@ BODICE_EXPERIMENTAL bodice_status bodice_fit(const bodice_context* context, cons
 /** Binds a proxy that was fitted before, and saved, to the joints of a skin, in place of another fit. The
  * skin has a rig (bodice_skin_options) and stands as the one that the proxy was fitted to, in the same
  * coordinates. Fails with BODICE_INVALID_ARGUMENT if the skin has no rig or more than a tenth of the
- * ellipsoids have their centers outside of it. A fit whose skin has the rig already follows joints a little
+ * ellipsoids have their centers outside of it. A fit to the skin with its rig follows joints a little
  * closer, since it sees them bent. Const use of all three. Cost for 89 ellipsoids with relief: 0.3 seconds of
  * one core. */
 BODICE_EXPERIMENTAL bodice_status bodice_proxy_bind(const bodice_context* context, const bodice_proxy* proxy,
