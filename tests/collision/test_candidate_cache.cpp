@@ -111,7 +111,7 @@ double equally_near_y(const std::vector<Ellipsoid>& shapes) {
 
 }  // namespace
 
-TEST_CASE("cached candidates change no bit of a query while particles wander") {
+TEST_CASE("cached candidates change no bit of a query while particles wander" * doctest::test_suite("long")) {
   for (const bool relief : {false, true})
     for (const double step_m : {0.0, 2e-4, 1e-3, 4e-3, 0.05}) {
       CAPTURE(relief);
@@ -128,7 +128,8 @@ TEST_CASE("cached candidates change no bit of a query while particles wander") {
     }
 }
 
-TEST_CASE("cached candidates change no bit of a query while all particles drift in one direction") {
+TEST_CASE("cached candidates change no bit of a query while all particles drift in one direction" *
+          doctest::test_suite("long")) {
   // All particles of a batch pass from one ellipsoid to another at once.
   const Collider collider(crowd(false, 200));
   Cloud cloud = lattice(20);
@@ -138,7 +139,7 @@ TEST_CASE("cached candidates change no bit of a query while all particles drift 
   CHECK(differences_over(60, collider, cloud, drift) == 0);
 }
 
-TEST_CASE("cached candidates change no bit of a query while the proxy moves") {
+TEST_CASE("cached candidates change no bit of a query while the proxy moves" * doctest::test_suite("long")) {
   for (const bool relief : {false, true}) {
     const auto proxy = crowd(relief, 60);
     Collider collider(proxy);

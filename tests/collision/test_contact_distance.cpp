@@ -73,7 +73,8 @@ int differing(const std::vector<Contact>& limited, const std::vector<Contact>& u
 
 }  // namespace
 
-TEST_CASE("a query with a contact distance gives the bits of an unlimited query, filtered") {
+TEST_CASE("a query with a contact distance gives the bits of an unlimited query, filtered" *
+          doctest::test_suite("long")) {
   for (const bool relief : {false, true})
     for (const double margin_m : {0.0, 0.003}) {
       const Collider collider(scene(relief, margin_m));
@@ -94,7 +95,8 @@ TEST_CASE("a query with a contact distance gives the bits of an unlimited query,
     }
 }
 
-TEST_CASE("a contact distance filters exactly where the octants of an ellipsoid differ in height") {
+TEST_CASE("a contact distance filters exactly where the octants of an ellipsoid differ in height" *
+          doctest::test_suite("long")) {
   // The ellipsoids are larger than the gaps between them, so that many particles have a single candidate.
   const auto data = data_of(random_ellipsoids(8, 24, 0.7, 0.06, 0.12));
   for (const int nodes : {2, 5, 16}) {
@@ -133,7 +135,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a contact distance filters exactly on every instruction set") {
+TEST_CASE("a contact distance filters exactly on every instruction set" * doctest::test_suite("long")) {
   for (const bool relief : {false, true}) {
     const Collider collider(scene(relief, 0.0));
     Cloud cloud = random_cloud(5000);

@@ -39,7 +39,8 @@ std::uint64_t hash_of(const Cloud& cloud) {
 
 }  // namespace
 
-TEST_CASE("a response gives the same bits for any number of workers, with and without a workspace") {
+TEST_CASE("a response gives the same bits for any number of workers, with and without a workspace" *
+          doctest::test_suite("long")) {
   for (const bool relief : {false, true}) {
     const Collider collider(scene(relief));
     const auto run = [&](engine::Executor& executor, bool with_workspace) {
@@ -102,7 +103,7 @@ TEST_CASE("all instruction sets agree on distances to 2 micrometers, with relief
   }
 }
 
-TEST_CASE("a response resolves every particle on every instruction set") {
+TEST_CASE("a response resolves every particle on every instruction set" * doctest::test_suite("long")) {
   for (const bool relief : {false, true}) {
     const Collider collider(scene(relief));
     on_every_target([&](const std::string& name) {
@@ -115,7 +116,8 @@ TEST_CASE("a response resolves every particle on every instruction set") {
   }
 }
 
-TEST_CASE("a query of many particles in scattered order gives the bits of single queries") {
+TEST_CASE("a query of many particles in scattered order gives the bits of single queries" *
+          doctest::test_suite("long")) {
   for (const bool relief : {false, true}) {
     const Collider collider(scene(relief));
     Cloud cloud = random_cloud();
@@ -135,8 +137,8 @@ TEST_CASE("a query of many particles in scattered order gives the bits of single
   }
 }
 
-TEST_CASE(
-    "warm queries and responses allocate nothing; queries of scattered ones need a workspace for that") {
+TEST_CASE("warm queries and responses allocate nothing; queries of scattered ones need a workspace for that" *
+          doctest::test_suite("long")) {
   if (!counts_allocations()) return;
   for (const bool relief : {false, true}) {
     const Collider collider(scene(relief));

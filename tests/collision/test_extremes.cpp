@@ -82,7 +82,8 @@ TEST_CASE("the certificate of relief is proportional to the body, from a millime
   }
 }
 
-TEST_CASE("a response resolves all particles among 4,096 ellipsoids, apart or identical") {
+TEST_CASE("a response resolves all particles among 4,096 ellipsoids, apart or identical" *
+          doctest::test_suite("long")) {
   const auto one = random_ellipsoids(8, 1, 0.1, 0.1, 0.3)[0];
   for (const auto& shapes : {random_ellipsoids(4, 4096, 1.0, 0.02, 0.1), std::vector<Ellipsoid>(4096, one)}) {
     const Collider collider(proxy_of(shapes));
@@ -100,7 +101,7 @@ TEST_CASE("a response resolves all particles among 4,096 ellipsoids, apart or id
   }
 }
 
-TEST_CASE("ten million particles get the same response as each of them alone") {
+TEST_CASE("ten million particles get the same response as each of them alone" * doctest::test_suite("long")) {
   constexpr std::size_t kCount = 10'000'000, kPeriod = 1000;
   const auto shapes = random_ellipsoids(7, 10, 0.2, 0.1, 0.2);
   const Collider collider(proxy_of(shapes));

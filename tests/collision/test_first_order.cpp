@@ -161,7 +161,8 @@ TEST_CASE("at a center the first-order normal is along the shortest axis") {
   }
 }
 
-TEST_CASE("first-order distances of a union have the exact sign, and few particles get a wrong owner") {
+TEST_CASE("first-order distances of a union have the exact sign, and few particles get a wrong owner" *
+          doctest::test_suite("long")) {
   const auto proxy = body_like(false);
   std::vector<Ellipsoid> shapes;
   for (const auto& e : proxy.ellipsoids()) shapes.push_back(e.shape);
@@ -215,7 +216,8 @@ TEST_CASE("first-order relief is exact on single balls and close on other single
   }
 }
 
-TEST_CASE("a first-order query with a contact distance reports only particles within it") {
+TEST_CASE("a first-order query with a contact distance reports only particles within it" *
+          doctest::test_suite("long")) {
   for (const bool relief : {false, true})
     for (const double margin_m : {0.0, 0.003}) {
       const Collider collider(body_like(relief, margin_m));
@@ -240,7 +242,8 @@ TEST_CASE("a first-order query with a contact distance reports only particles wi
     }
 }
 
-TEST_CASE("first-order queries give the same bits for any number of workers, with and without a workspace") {
+TEST_CASE("first-order queries give the same bits for any number of workers, with and without a workspace" *
+          doctest::test_suite("long")) {
   for (const bool relief : {false, true}) {
     const Collider collider(body_like(relief));
     Cloud cloud = near_surface(collider, 7001, 0.03f);
@@ -281,7 +284,8 @@ TEST_CASE("a first-order query never takes an ellipsoid beyond the range of floa
   });
 }
 
-TEST_CASE("first-order queries with a workspace keep the exact sign while particles and body move") {
+TEST_CASE("first-order queries with a workspace keep the exact sign while particles and body move" *
+          doctest::test_suite("long")) {
   auto shapes = random_ellipsoids(31, 60, 0.5, 0.05, 0.15);
   Collider collider(proxy_of(shapes));
   Cloud cloud = near_surface(collider, 3000, 0.01f);

@@ -47,7 +47,8 @@ Eigen::Matrix3f chain_of(int links, const engine::Random& random, std::uint64_t&
 
 }  // namespace
 
-TEST_CASE("axes out of chains of twenty float matrices are taken in every frame, as right as their floats") {
+TEST_CASE("axes out of chains of twenty float matrices are taken in every frame, as right as their floats" *
+          doctest::test_suite("long")) {
   const auto shapes = random_ellipsoids(5, 30, 0.8, 0.02, 0.2);
   Collider collider(proxy_of(shapes)), exact(proxy_of(shapes));
   const engine::Random random(9);

@@ -103,7 +103,8 @@ TEST_CASE("a query agrees with brute force for neighboring particles near the su
   CHECK(errors.wrong_owner == 0);
 }
 
-TEST_CASE("a query finds the nearer of two ellipsoids next to a crease, on every instruction set") {
+TEST_CASE("a query finds the nearer of two ellipsoids next to a crease, on every instruction set" *
+          doctest::test_suite("long")) {
   const auto shapes = random_ellipsoids(21, 40, 0.4, 0.05, 0.4);
   const auto creases = find_creases(shapes, 4, 300);
   REQUIRE(creases.size() == 300);
@@ -157,14 +158,16 @@ TEST_CASE("a query agrees with brute force for identical, nested and tangent ell
   CHECK(compare(tangent, std::vector<Vec3>(100, Vec3::Zero()), 1.0).distance < 1e-6);
 }
 
-TEST_CASE("a query agrees with brute force for 700 different ellipsoids around one point") {
+TEST_CASE("a query agrees with brute force for 700 different ellipsoids around one point" *
+          doctest::test_suite("long")) {
   const auto shapes = random_ellipsoids(5, 700, 0.05, 0.08, 0.1);
   const Errors errors = compare(shapes, points_around(3, 3000, 0.2), 0.2);
   CHECK(errors.distance < 2e-6);
   CHECK(errors.wrong_owner == 0);
 }
 
-TEST_CASE("a query agrees with brute force for blocks from a tenth of a millimeter to half a meter") {
+TEST_CASE("a query agrees with brute force for blocks from a tenth of a millimeter to half a meter" *
+          doctest::test_suite("long")) {
   // Blocks measure a tenth of a millimeter to half a meter. An ellipsoid that is dropped for a block must be
   // nearest to none of its points.
   const auto shapes = random_ellipsoids(13, 120, 0.6, 0.03, 0.2);
@@ -183,7 +186,8 @@ TEST_CASE("a query agrees with brute force for blocks from a tenth of a millimet
 }
 
 TEST_CASE(
-    "a closest point is exact to 2e-6 and on the surface, at aspect ratios to 1:1000 over twelve decades") {
+    "a closest point is exact to 2e-6 and on the surface, at aspect ratios to 1:1000 over twelve decades" *
+    doctest::test_suite("long")) {
   engine::Random random(4);
   for (int shape = 0; shape < 120; ++shape) {
     Ellipsoid e;

@@ -30,7 +30,8 @@ TEST_CASE("distances ten kilometers from the origin are those at the origin to 2
   CHECK(worst_m < 2e-6);
 }
 
-TEST_CASE("a particle far away does not change the results of its neighbors in the block") {
+TEST_CASE("a particle far away does not change the results of its neighbors in the block" *
+          doctest::test_suite("long")) {
   constexpr int kBlockParticles = 64;
   const proxy::BodyProxy proxy = proxy_of(random_ellipsoids(13, 120, 0.6, 0.03, 0.2));
   const Collider collider(proxy);

@@ -73,8 +73,8 @@ TEST_CASE("a ray exit is the first clear point of the ray, however flat the ray 
   }
 }
 
-TEST_CASE(
-    "a push that cutting planes do not settle is at most a few times as long as the shortest ray exit") {
+TEST_CASE("a push that cutting planes do not settle is at most a few times as long as the shortest ray exit" *
+          doctest::test_suite("long")) {
   const auto shapes = random_ellipsoids(12, 40, 0.4, 0.06, 0.25);
   const UnionField field(shapes);
   for (const double h_m : {0.0, 0.003}) {

@@ -46,7 +46,7 @@ std::size_t below(const std::vector<Ellipsoid>& shapes, const Collider& collider
 
 }  // namespace
 
-TEST_CASE("a closest-point response leaves no particle inside any union") {
+TEST_CASE("a closest-point response leaves no particle inside any union" * doctest::test_suite("long")) {
   struct Scene {
     int ellipsoids;
     double least_m, largest_m;

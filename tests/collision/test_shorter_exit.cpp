@@ -26,7 +26,7 @@ double shortest_exit_m(const std::vector<Ellipsoid>& shapes, const Vec3& p,
 
 }  // namespace
 
-TEST_CASE("deep between many ellipsoids, the exit is nearly the shortest") {
+TEST_CASE("deep between many ellipsoids, the exit is nearly the shortest" * doctest::test_suite("long")) {
   engine::Random random(5);
   std::vector<Vec3> directions(2000);
   for (Vec3& direction : directions) direction = random_direction(random);

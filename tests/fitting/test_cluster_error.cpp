@@ -156,7 +156,7 @@ TEST_CASE("cluster error: thresholds found automatically are the largest cluster
   }
 }
 
-TEST_CASE("cluster error: tiers without clusters have none") {
+TEST_CASE("cluster error: tiers without clusters have none" * doctest::test_suite("long")) {
   const Skin skin = bent_limbs();
   for (const Tier tier : {Tier::kSolid, Tier::kTight, Tier::kRelief}) {
     const auto result = fitting::fit({}, skin.view(), {.tier = tier, .max_ellipsoids = 4});

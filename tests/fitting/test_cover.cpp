@@ -67,7 +67,8 @@ int leaks(const Skin& skin, const geometry::MeshDistance& distance, const proxy:
 
 }  // namespace
 
-TEST_CASE("solid: at any count, no skin and no point of the interior is left out") {
+TEST_CASE("solid: at any count, no skin and no point of the interior is left out" *
+          doctest::test_suite("long")) {
   const Skin skin = bent_body();
   const geometry::MeshDistance distance({}, skin.mesh);
   fitting::FitOptions options;
@@ -120,7 +121,8 @@ TEST_CASE("solid: a cavity that no column passes through is found and filled") {
   CHECK(outside() == 0);
 }
 
-TEST_CASE("tight: a fit with covering leaves no skin outside, one without it does") {
+TEST_CASE("tight: a fit with covering leaves no skin outside, one without it does" *
+          doctest::test_suite("long")) {
   const Skin skin = bent_body();
   fitting::FitOptions options;
   options.tier = proxy::Tier::kTight;
@@ -134,7 +136,8 @@ TEST_CASE("tight: a fit with covering leaves no skin outside, one without it doe
   CHECK(covering->accuracy.gap_m.mean > balanced->accuracy.gap_m.mean);
 }
 
-TEST_CASE("tight: with covering, skin that dips into another limb is covered up to where it dips") {
+TEST_CASE("tight: with covering, skin that dips into another limb is covered up to where it dips" *
+          doctest::test_suite("long")) {
   // Triangles are a decimeter long; those across the seam have buried corners.
   const geometry::Ellipsoid left{Vec3(-0.1, 0.5, 0), geometry::Mat3::Identity(), Vec3(0.15, 0.4, 0.15)};
   const geometry::Ellipsoid right{Vec3(0.1, 0.5, 0), geometry::Mat3::Identity(), Vec3(0.15, 0.4, 0.15)};

@@ -73,7 +73,8 @@ TEST_CASE("fit: tier paper holds every vertex, tier solid every triangle and the
 }
 
 TEST_CASE(
-    "fit: tight is more accurate than paper, and relief than tight, where a part needs several ellipsoids") {
+    "fit: tight is more accurate than paper, and relief than tight, where a part needs several ellipsoids" *
+    doctest::test_suite("long")) {
   Skin skin;  // two ellipsoids under one label
   fitting_test::add_ellipsoid(skin, {Vec3(0, 0.25, 0), geometry::Mat3::Identity(), Vec3(0.08, 0.25, 0.08)},
                               body::Part::kThighL);
@@ -161,7 +162,7 @@ TEST_CASE("fit: a target error that cannot be reached gives a warning") {
   CHECK(fitting::fit({}, skin.view(), options)->warnings.empty());
 }
 
-TEST_CASE("fit: every tier gives the same bits for 1, 2, 3 and 7 workers") {
+TEST_CASE("fit: every tier gives the same bits for 1, 2, 3 and 7 workers" * doctest::test_suite("long")) {
   const Skin skin = three_ellipsoids();
   for (const Tier tier :
        {Tier::kPaper, Tier::kSolid, Tier::kRelief}) {  // relief contains the ellipsoids of tight
@@ -178,7 +179,8 @@ TEST_CASE("fit: every tier gives the same bits for 1, 2, 3 and 7 workers") {
   }
 }
 
-TEST_CASE("fit: at any scale and far from the origin the gap is the same fraction of the body") {
+TEST_CASE("fit: at any scale and far from the origin the gap is the same fraction of the body" *
+          doctest::test_suite("long")) {
   const double gap =
       fitting::fit({}, three_ellipsoids().view(), options_for(Tier::kTight, 6))->accuracy.gap_m.mean;
   for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
@@ -222,7 +224,7 @@ TEST_CASE("fit: of two equal limbs the same one is split first, wherever the bod
     CHECK(counts_at(Vec3(far, -0.3 * far, 0.7 * far)) == expected);
 }
 
-TEST_CASE("fit: improvements are published in order and are valid proxies") {
+TEST_CASE("fit: improvements are published in order and are valid proxies" * doctest::test_suite("long")) {
   const Skin skin = three_ellipsoids();
   FitOptions options = options_for(Tier::kRelief, 6);
   std::vector<Tier> seen;
@@ -233,7 +235,8 @@ TEST_CASE("fit: improvements are published in order and are valid proxies") {
   CHECK(seen.back() == Tier::kRelief);
 }
 
-TEST_CASE("fit: a time budget is for the whole target search, and only its first try publishes proxies") {
+TEST_CASE("fit: a time budget is for the whole target search, and only its first try publishes proxies" *
+          doctest::test_suite("long")) {
   struct Impatient : engine::Clock {  // every reading is a minute after the one before
     std::int64_t now_ns() const noexcept override { return now.fetch_add(60'000'000'000); }
     mutable std::atomic<std::int64_t> now = 0;
@@ -262,7 +265,8 @@ TEST_CASE("fit: a time budget is for the whole target search, and only its first
   CHECK(tries(*hasty) == 1);
 }
 
-TEST_CASE("fit: without any time there is a valid proxy of the wanted parts only, and a warning") {
+TEST_CASE("fit: without any time there is a valid proxy of the wanted parts only, and a warning" *
+          doctest::test_suite("long")) {
   const Skin skin = three_ellipsoids();
   FitOptions options = options_for(Tier::kRelief, 6);
   options.time_budget_s = 0.0;

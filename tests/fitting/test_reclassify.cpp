@@ -114,7 +114,8 @@ TEST_CASE(
   CHECK(stayed > 0);
 }
 
-TEST_CASE("reclassify: the option of a fit lowers cluster errors of this body, and vertices stay inside") {
+TEST_CASE("reclassify: the option of a fit lowers cluster errors of this body, and vertices stay inside" *
+          doctest::test_suite("long")) {
   const Skin skin = fitting_test::bent_limbs();
   int lower = 0;
   for (const int count : {6, 9, 12, 15, 18, 21, 24, 30}) {

@@ -74,7 +74,8 @@ TEST_CASE("region tasks: each region is published once, and the result consists 
   }
 }
 
-TEST_CASE("region tasks: paper and solid give some parts the same bits as in a fit of the whole body") {
+TEST_CASE("region tasks: paper and solid give some parts the same bits as in a fit of the whole body" *
+          doctest::test_suite("long")) {
   const auto skin = three_ellipsoids();
   const auto executor = bodice_test::make_threads(3);
   engine::Context context;
@@ -108,7 +109,8 @@ TEST_CASE("region tasks: paper and solid give some parts the same bits as in a f
     }
 }
 
-TEST_CASE("region tasks: tight and relief give some parts their share of the body's ellipsoids and bytes") {
+TEST_CASE("region tasks: tight and relief give some parts their share of the body's ellipsoids and bytes" *
+          doctest::test_suite("long")) {
   const auto skin = three_ellipsoids();
   for (const Tier tier : {Tier::kTight, Tier::kRelief}) {
     FitOptions options = options_for(tier);
@@ -126,7 +128,8 @@ TEST_CASE("region tasks: tight and relief give some parts their share of the bod
   }
 }
 
-TEST_CASE("region tasks: regions are published in the same order, whichever task ends first") {
+TEST_CASE("region tasks: regions are published in the same order, whichever task ends first" *
+          doctest::test_suite("long")) {
   const auto skin = three_ellipsoids();
   for (const Tier tier : {Tier::kPaper, Tier::kSolid})
     for (const int workers : {1, 2, 5})

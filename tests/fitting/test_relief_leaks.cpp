@@ -26,7 +26,8 @@ Skin pressed_together(double depth_m) {
 
 }  // namespace
 
-TEST_CASE("relief: limbs that dip into each other open no hole, and the air between them stays air") {
+TEST_CASE("relief: limbs that dip into each other open no hole, and the air between them stays air" *
+          doctest::test_suite("long")) {
   for (const double depth_m : {0.004, 0.012}) {
     CAPTURE(depth_m);
     const Skin skin = pressed_together(depth_m);

@@ -15,7 +15,8 @@ using fitting_test::Skin;
 using geometry::Vec3;
 using proxy::Tier;
 
-TEST_CASE("target search: a target error is reached within a fifth, from relief to a handful of ellipsoids") {
+TEST_CASE("target search: a target error is reached within a fifth, from relief to a handful of ellipsoids" *
+          doctest::test_suite("long")) {
   const Skin skin = bent_limbs();
   for (const double target_mm : {1.0, 2.0, 4.0, 8.0}) {
     FitOptions options;
@@ -32,7 +33,7 @@ TEST_CASE("target search: a target error is reached within a fifth, from relief 
   }
 }
 
-TEST_CASE("target search: a coarser target never takes more ellipsoids") {
+TEST_CASE("target search: a coarser target never takes more ellipsoids" * doctest::test_suite("long")) {
   const Skin skin = bent_limbs();
   std::optional<std::size_t> finer;
   for (const double target_mm : {2.0, 3.0, 5.0, 8.0}) {
@@ -46,7 +47,8 @@ TEST_CASE("target search: a coarser target never takes more ellipsoids") {
   }
 }
 
-TEST_CASE("uniform offset: a target that no count reaches is met by covering more skin") {
+TEST_CASE("uniform offset: a target that no count reaches is met by covering more skin" *
+          doctest::test_suite("long")) {
   const Skin skin = bent_limbs();
   const auto with = [&](int count) {
     return fitting::fit({}, skin.view(), {.tier = Tier::kTight, .max_ellipsoids = count});
@@ -65,7 +67,8 @@ TEST_CASE("uniform offset: a target that no count reaches is met by covering mor
   CHECK(result->accuracy.skin_outside_percent < 0.5 * three->accuracy.skin_outside_percent);
 }
 
-TEST_CASE("budget: more time gives a finer proxy, and a budget below a query's fixed cost gives a warning") {
+TEST_CASE("budget: more time gives a finer proxy, and a budget below a query's fixed cost gives a warning" *
+          doctest::test_suite("long")) {
   const Skin skin = bent_limbs();
   std::size_t fewer = 0;
   for (const double budget_us : {5.0, 90.0, 140.0, 250.0}) {
@@ -84,7 +87,8 @@ TEST_CASE("budget: more time gives a finer proxy, and a budget below a query's f
   }
 }
 
-TEST_CASE("solid: a limit above the useful number of ellipsoids costs less than a tenth of the gap") {
+TEST_CASE("solid: a limit above the useful number of ellipsoids costs less than a tenth of the gap" *
+          doctest::test_suite("long")) {
   const Skin skin = bent_limbs();
   const auto gap_m = [&](int most) {
     const auto result = fitting::fit({}, skin.view(), {.tier = Tier::kSolid, .max_ellipsoids = most});
@@ -101,7 +105,8 @@ TEST_CASE("solid: a limit above the useful number of ellipsoids costs less than 
   CHECK(out_of_reach->accuracy.gap_m.mean < 1.1 * of_120);
 }
 
-TEST_CASE("tight: no ellipsoid stands in the air between limbs, however few there are") {
+TEST_CASE("tight: no ellipsoid stands in the air between limbs, however few there are" *
+          doctest::test_suite("long")) {
   const Skin skin = bent_limbs();
   for (const int count : {2, 3, 5, 9}) {
     FitOptions options;
