@@ -1,5 +1,6 @@
 """import bodice, against distances to balls that numpy computes. Run with BODICE_LIBRARY set; skips aloud without numpy."""
 
+import importlib.util
 import json
 import pathlib
 import sys
@@ -137,6 +138,27 @@ class Distances(unittest.TestCase):
         inside = int((self.body.signed_distance(points) < 0.0).sum())
         self.assertIn(f"after: {inside} of {len(points)} points inside", page)
         self.assertEqual(page.count("<circle"), 2 * len(points))
+
+    @unittest.skipUnless(importlib.util.find_spec("torch"), "torch is not installed")
+    def test_torch_differentiates_the_distance(self):
+        sys.path.insert(0, str(pathlib.Path(__file__).parents[3] / "examples"))
+        import collision_loss_torch
+        import torch
+
+        points = torch.from_numpy(self.points[:300].copy()).requires_grad_(True)
+        collision_loss_torch.SignedDistance.apply(points, self.body).sum().backward()
+        h = 1e-3  # distances are floats: a smaller step is lost in their rounding
+        for axis in range(3):
+            step = np.zeros(3)
+            step[axis] = h
+            slope = (truth(self.points[:300] + step) - truth(self.points[:300] - step)) / (2 * h)
+            difference = np.abs(points.grad[:, axis].numpy() - slope)
+            self.assertLess(np.median(difference), 2e-3)  # where the closest ellipsoid changes there is no slope
+            self.assertLess(np.mean(difference > 0.05), 0.05)
+        targets = torch.from_numpy(self.points[:500])
+        moved, losses = collision_loss_torch.descend(self.body, targets + 0.01, targets)
+        self.assertLess(losses[-1], 0.5 * losses[0])
+        self.assertGreater((truth(targets.numpy()) < 0).sum(), 2 * (truth(moved.numpy()) < -0.001).sum())
 
     def test_other_threads_run_during_a_call(self):
         many = np.repeat(self.points, 400, axis=0)

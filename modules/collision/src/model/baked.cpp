@@ -49,7 +49,8 @@ BallMap bake_ball(const Ellipsoid& shape) {
   return result;
 }
 
-BallMap grown(BallMap ball) {
+BallMap grown(const BallMap& given) {
+  BallMap ball = given;
   const auto shrink = [](auto& numbers) {
     for (float& number : numbers) number *= 1.0f / (1.0f + kBoundGrowth);
   };
