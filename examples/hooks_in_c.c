@@ -79,11 +79,12 @@ int main(void) {
        bodice_skin_built_in(context, 0, 1.8, NULL, &skin) == BODICE_OK &&
        bodice_fit(context, skin, &fit, &proxy, NULL) == BODICE_OK &&
        bodice_collider_create(context, proxy, &collider) == BODICE_OK &&
-       bodice_workspace_create(context, &workspace) == BODICE_OK &&
-       bodice_resolve(collider, &particles, NULL, workspace, NULL) == BODICE_OK;
-  warm = self.taken; /* from here on, frames take no memory */
-  for (frame = 0; ok && frame < 60; ++frame)
+       bodice_workspace_create(context, &workspace) == BODICE_OK;
+  warm = 0;
+  for (frame = 0; ok && frame < 62; ++frame) {
+    if (frame == 2) warm = self.taken; /* the second call is the last one to take memory */
     ok = bodice_resolve(collider, &particles, NULL, workspace, NULL) == BODICE_OK;
+  }
   if (!ok) printf("%s\n", bodice_last_error());
   printf("%u lines; %u blocks with %lu bytes taken, %u more in 60 frames\n", self.lines, warm,
          (unsigned long)self.bytes, self.taken - warm);

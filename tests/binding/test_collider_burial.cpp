@@ -97,7 +97,7 @@ TEST_CASE("the exact side of a posed collider has the distances and owners of th
   std::iota(order.begin(), order.end(), 0u);
   for (const Pose& pose : {seat(moving.body.skeleton), squat(moving.body.skeleton)}) {
     REQUIRE(poser.pose({}, pose));
-    collision::ReliefTables tables(moving.bound, order);
+    collision::ReliefTables tables(moving.bound, order, nullptr);
     tables.update(poser.posed(), moving.bound.stature_m(), order);
     const collision::UnionField field(poser.posed().shapes);
     const auto points = bodice_test::points_around(posed_skin(moving, pose), 1000, 8);

@@ -52,7 +52,7 @@ std::vector<double> simulate(const Scene& scene, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("capi: no array is copied; lists of particles lie in memory of the host, which gets it back") {
+TEST_CASE("capi: arrays that grow with particles or texels lie in memory of the host, which gets it back") {
   Counted memory;
   {
     bodice_context_options options = bodice_default_context_options();
@@ -61,20 +61,34 @@ TEST_CASE("capi: no array is copied; lists of particles lie in memory of the hos
     options.release = Counted::release;
     auto context = bodice::Context::create(options);
     REQUIRE(context);
-    const auto proxy = make_proxy(*context, limb_proxy(false));
+    const auto engine_proxy = limb_proxy(true);
+    const auto proxy = make_proxy(*context, engine_proxy);
     auto collider = bodice::Collider::create(*context, proxy);
+    const std::size_t of_collider = memory.bytes;
+    CHECK(of_collider >= 2 * engine_proxy.texels().size());
+    memory.exhausted = true;
+    CHECK(bodice::Collider::create(*context, proxy).status() == BODICE_OUT_OF_MEMORY);
+    memory.exhausted = false;
+    CHECK(memory.bytes == of_collider);
     auto workspace = bodice::Workspace::create(*context);
     context = bodice::Context();  // handles keep alive what they need
+    std::vector<float> local(3000, 0.01f);
+    bodice::Particles packed(1000);
+    packed.position(local.data()).space = BODICE_LOCAL;
+    for (int call = 0; call < 2; ++call) REQUIRE(collider->resolve(packed, *workspace));
+    const std::size_t of_workspace = memory.bytes - of_collider;
+    CHECK(of_workspace >= 1000 * 4 * sizeof(std::uint32_t));  // the spatial order and its keys, each twice
+    CHECK(of_workspace <= 1000 * 110);
     std::vector<double> world(3000, 0.01);
     bodice::Particles particles(1000);
     particles.position(world.data());
+    const std::size_t before = memory.calls;
     REQUIRE(collider->resolve(particles, *workspace));
-    CHECK(memory.blocks == 0);  // doubles of the world are read where they are
+    CHECK(memory.calls == before);  // doubles of the world are read where they are
     const std::vector<std::uint8_t> all(10000, 1);
     particles.mask = all.data();
     REQUIRE(collider->resolve(particles, *workspace));
-    CHECK(memory.blocks > 0);
-    CHECK(memory.bytes >= 1000 * sizeof(std::uint32_t));
+    CHECK(memory.bytes >= of_collider + of_workspace + 1000 * sizeof(std::uint32_t));
     const std::size_t calls = memory.calls;
     REQUIRE(collider->resolve(particles, *workspace));
     CHECK(memory.calls == calls);
@@ -86,8 +100,17 @@ TEST_CASE("capi: no array is copied; lists of particles lie in memory of the hos
     many.mask = all.data();
     CHECK(collider->resolve(many, *workspace).status() == BODICE_OUT_OF_MEMORY);
     CHECK(more == std::vector<double>(30000, 0.01));
+    many.mask = nullptr;  // now it is the workspace that lacks memory
+    CHECK(collider->resolve(many, *workspace).status() == BODICE_OUT_OF_MEMORY);
+    CHECK(more == std::vector<double>(30000, 0.01));
     memory.exhausted = false;
-    CHECK(collider->resolve(many, *workspace));
+    const auto report = collider->resolve(many, *workspace);
+    REQUIRE(report);
+    auto fresh = bodice::Workspace::create(*bodice::Context::create(options));
+    std::vector<double> again(30000, 0.01);
+    many.position(again.data());
+    REQUIRE(collider->resolve(many, *fresh));
+    CHECK(again == more);  // a call that failed leaves no trace in the workspace
   }
   CHECK(memory.blocks == 0);
   CHECK(memory.bytes == 0);

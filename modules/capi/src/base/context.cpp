@@ -48,7 +48,7 @@ void HostLog::write(engine::LogLevel level, std::string_view message) {
 }
 
 ContextState::ContextState(const bodice_context_options& options)
-    : options_(options), log_(options_), clock_(options_) {}
+    : options_(options), log_(options_), clock_(options_), memory_(options_) {}
 
 Outcome ContextState::make(const bodice_context_options& options, SharedContext& out) {
   if (Outcome checked = check(options); !checked.ok()) return checked;
@@ -81,17 +81,25 @@ engine::Context ContextState::engine_context() const {
   return context;
 }
 
-void* ContextState::allocate(std::size_t bytes) const {
-  if (!options_.allocate) return ::operator new(bytes, std::align_val_t(kAlignment));
-  void* block = options_.allocate(options_.host, bytes, kAlignment);
+void* HostMemory::allocate(std::size_t bytes, std::size_t alignment) {
+  void* block = options_.allocate(options_.host, bytes, std::max(alignment, kAlignment));
   if (!block) throw std::bad_alloc();
   return block;
+}
+
+void HostMemory::release(void* block, std::size_t bytes, std::size_t) noexcept {
+  options_.release(options_.host, block, bytes);
+}
+
+void* ContextState::allocate(std::size_t bytes) const {
+  if (!options_.allocate) return ::operator new(bytes, std::align_val_t(kAlignment));
+  return memory_.allocate(bytes, kAlignment);
 }
 
 void ContextState::release(void* block, std::size_t bytes) const noexcept {
   if (!block) return;
   if (options_.allocate)
-    options_.release(options_.host, block, bytes);
+    memory_.release(block, bytes, kAlignment);
   else
     ::operator delete(block, std::align_val_t(kAlignment));
 }

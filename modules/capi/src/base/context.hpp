@@ -6,6 +6,7 @@
 
 #include <bodice/engine/context.hpp>
 #include <bodice/engine/host_executor.hpp>
+#include <bodice/engine/memory_resource.hpp>
 
 #include "base/outcome.hpp"
 #include "base/thread_pool.hpp"
@@ -33,6 +34,17 @@ class HostClock final : public engine::Clock {
   const bodice_context_options& options_;
 };
 
+/// The host's memory behind engine::MemoryResource.
+class HostMemory final : public engine::MemoryResource {
+ public:
+  explicit HostMemory(const bodice_context_options& options) : options_(options) {}
+  void* allocate(std::size_t bytes, std::size_t alignment) override;
+  void release(void* block, std::size_t bytes, std::size_t alignment) noexcept override;
+
+ private:
+  const bodice_context_options& options_;
+};
+
 /// Threads, log, memory and clock of a context.
 class ContextState {
  public:
@@ -45,11 +57,14 @@ class ContextState {
   /// Memory of the host, or of malloc. Throws std::bad_alloc.
   void* allocate(std::size_t bytes) const;
   void release(void* block, std::size_t bytes) const noexcept;
+  /// Memory of the host for what the engine stores; null: the host provides none.
+  engine::MemoryResource* engine_memory() const { return options_.allocate ? &memory_ : nullptr; }
 
  private:
   bodice_context_options options_;
   mutable HostLog log_;
   HostClock clock_;
+  mutable HostMemory memory_;
   std::unique_ptr<ThreadPool> pool_;
   std::unique_ptr<engine::Executor> executor_;  // after the pool, for it uses those threads to its end
 };

@@ -6,7 +6,12 @@
 
 struct bodice_workspace {
   explicit bodice_workspace(bodice::capi::SharedContext shared)
-      : context(shared), numbers(shared), element(shared), claim(shared), contacts(shared) {}
+      : context(shared),
+        engine(shared->engine_memory()),
+        numbers(shared),
+        element(shared),
+        claim(shared),
+        contacts(shared) {}
 
   bodice::capi::SharedContext context;
   bodice::collision::Workspace engine;

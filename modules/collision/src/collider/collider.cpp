@@ -90,7 +90,8 @@ void ContactReport::add(const ContactReport& other) {
   deepest_m = std::max(deepest_m, other.deepest_m);
 }
 
-Collider::Collider(const proxy::BodyProxy& proxy) : impl_(std::make_unique<Impl>(proxy)) {}
+Collider::Collider(const proxy::BodyProxy& proxy, engine::MemoryResource* memory)
+    : impl_(std::make_unique<Impl>(proxy, memory)) {}
 Collider::~Collider() = default;
 Collider::Collider(Collider&&) noexcept = default;
 Collider& Collider::operator=(Collider&&) noexcept = default;

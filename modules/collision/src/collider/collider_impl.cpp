@@ -111,7 +111,7 @@ void for_lanes(const LaneBits& lanes, int count, Work&& work) {
 
 }  // namespace
 
-Collider::Impl::Impl(const proxy::BodyProxy& proxy)
+Collider::Impl::Impl(const proxy::BodyProxy& proxy, engine::MemoryResource* memory)
     : proxy_hash(proxy.hash()),
       origin(middle_of(proxy)),
       proxy_index(spatial_order(proxy)),
@@ -122,7 +122,8 @@ Collider::Impl::Impl(const proxy::BodyProxy& proxy)
       shapes(local_shapes(origin, proxy, proxy_index)),
       field(shapes),
       model{Baked(shapes, field.boxes(), proxy_index), std::nullopt} {
-  if (proxy.relief().size() == shapes.size() && !shapes.empty()) model.relief.emplace(proxy, proxy_index);
+  if (proxy.relief().size() == shapes.size() && !shapes.empty())
+    model.relief.emplace(proxy, proxy_index, memory);
   internal_index.resize(proxy_index.size());
   for (std::uint32_t k = 0; k < proxy_index.size(); ++k) internal_index[proxy_index[k]] = k;
   for (const std::uint32_t k : proxy_index) part.push_back(proxy.ellipsoids()[k].part);

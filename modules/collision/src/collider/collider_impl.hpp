@@ -19,7 +19,7 @@ namespace bodice::inline v0_1::collision {
 
 /// The data of a Collider: a proxy in all the forms that queries and responses read.
 struct Collider::Impl {
-  explicit Impl(const proxy::BodyProxy& proxy);
+  explicit Impl(const proxy::BodyProxy& proxy, engine::MemoryResource* memory);
 
   /// `workspace` may be null: each task then visits its particles in the order of the arrays, or in a sorted
   /// order of its own.

@@ -2,7 +2,7 @@
 
 namespace bodice::inline v0_1::collision {
 
-Workspace::Workspace() : data_(std::make_unique<WorkspaceData>()) {}
+Workspace::Workspace(engine::MemoryResource* memory) : data_(std::make_unique<WorkspaceData>(memory)) {}
 Workspace::~Workspace() = default;
 Workspace::Workspace(Workspace&&) noexcept = default;
 Workspace& Workspace::operator=(Workspace&&) noexcept = default;

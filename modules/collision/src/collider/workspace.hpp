@@ -8,6 +8,8 @@ namespace bodice::inline v0_1::collision {
 
 /// The spatial order and the candidate cache of one set of particles.
 struct WorkspaceData {
+  explicit WorkspaceData(engine::MemoryResource* memory) : order(memory), candidates(memory) {}
+
   ParticleOrder order;
   CandidateCache candidates;
 };

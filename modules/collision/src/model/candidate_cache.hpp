@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include <bodice/engine/memory_resource.hpp>
 #include <bodice/geometry/ellipsoid.hpp>
 
 #include "model/batch.hpp"
@@ -53,6 +54,9 @@ struct alignas(64) CachedBatch {
 /// Cached candidates of all batches of a set of particles, and the pose from which displacements count.
 class CandidateCache {
  public:
+  /// Batches lie in `memory` if it is not null.
+  explicit CandidateCache(engine::MemoryResource* memory) : batches_(memory) {}
+
   /// Starts a call: adds the proxy's displacement since the last call. Allocates in the second call and when
   /// the number of particles grows. `beyond_m`: how much farther than the nearest an ellipsoid still counts.
   void begin_call(std::size_t particles, std::span<const geometry::Ellipsoid> shapes, float beyond_m);
@@ -66,7 +70,7 @@ class CandidateCache {
  private:
   void clear();
 
-  std::vector<CachedBatch> batches_;
+  engine::HostedArray<CachedBatch> batches_;
   bool first_call_ = true;
   std::vector<geometry::Ellipsoid> shapes_;
   float beyond_m_ = 0.0f;

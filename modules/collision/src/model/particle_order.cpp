@@ -128,9 +128,11 @@ void ParticleOrder::refresh(const ParticleView& particles) {
   const double spread = std::accumulate(radius_m_.begin(), radius_m_.end(), 0.0);
   if (!changed && spread_when_sorted_m_ < 0.0) spread_when_sorted_m_ = spread;
   if (!changed && spread <= kSortAgain * spread_when_sorted_m_) return;
-  for (std::vector<std::uint32_t>* values : {&order_, &other_order_, &key_, &other_key_})
-    values->resize(count);
   radius_m_.assign((count + kBlock - 1) / kBlock, 0.0f);
+  // The order is last: where memory runs out before, the next call sees that the number of particles has
+  // changed.
+  for (engine::HostedArray<std::uint32_t>* values : {&other_order_, &key_, &other_key_, &order_})
+    values->resize(count);
   spread_when_sorted_m_ = -1.0;
   sort(particles, 0, kWholeDigits, {order_, key_, other_order_, other_key_});
   const double as_sorted = spread_of(particles, order_);

@@ -18,6 +18,10 @@ struct WorkspaceData;
 /// A spatial order of one set of particles, refreshed when its blocks have spread.
 class ParticleOrder {
  public:
+  /// Arrays lie in `memory` if it is not null.
+  explicit ParticleOrder(engine::MemoryResource* memory)
+      : order_(memory), other_order_(memory), key_(memory), other_key_(memory), radius_m_(memory) {}
+
   /// Sorts again if the number of particles has changed or the blocks have spread since the last sort.
   void refresh(const ParticleView& particles);
 
@@ -30,9 +34,9 @@ class ParticleOrder {
   }
 
  private:
-  std::vector<std::uint32_t> order_, other_order_;
-  std::vector<std::uint32_t> key_, other_key_;
-  std::vector<float> radius_m_;  // one a block
+  engine::HostedArray<std::uint32_t> order_, other_order_;
+  engine::HostedArray<std::uint32_t> key_, other_key_;
+  engine::HostedArray<float> radius_m_;  // one a block
   bool stored_ = false;
   double spread_when_sorted_m_ = -1;  // sum of the radii; negative: not measured yet
 };

@@ -134,7 +134,9 @@ OctantReach reach_in_pose(const BakedTable& table, const std::uint8_t* texels, f
 
 }  // namespace
 
-ReliefTables::ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::uint32_t> order) {
+ReliefTables::ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::uint32_t> order,
+                           engine::MemoryResource* memory)
+    : texels(memory), burial(memory) {
   const proxy::ReliefReach reach = proxy::relief_reach(proxy.stature_m());
   in_m = static_cast<float>(reach.in_m);
   out_m = static_cast<float>(reach.out_m);

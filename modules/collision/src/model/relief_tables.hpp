@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include <bodice/engine/memory_resource.hpp>
 #include <bodice/proxy/body_proxy.hpp>
 #include <bodice/proxy/posed_proxy.hpp>
 
@@ -42,7 +43,9 @@ struct alignas(64) OctantReach {
 /// All relief tables of a proxy, with bounds on what they add.
 struct ReliefTables {
   /// `proxy` must have one table an ellipsoid; tables[k] becomes that of ellipsoid order[k].
-  ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::uint32_t> order);
+  /// Texels lie in `memory` if it is not null.
+  ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::uint32_t> order,
+               engine::MemoryResource* memory);
   /// Replaces the tables by those of a pose of the proxy, of which `stature_m` is that at rest. Reaches are
   /// the same for all octants then. Allocates nothing.
   void update(const proxy::PosedProxy& posed, double stature_m, std::span<const std::uint32_t> order);
@@ -51,11 +54,12 @@ struct ReliefTables {
   /// Whether the tables are those of a pose, with burial.
   bool buries() const { return burial_m > 0.0f; }
 
-  std::vector<std::uint8_t> texels;  ///< pairs (h, a); padded, since kernels read two texels at once
-  std::vector<std::uint8_t> burial;  ///< one byte a texel, padded likewise; empty: the proxy is not bound
-  float burial_m = 0.0f;             ///< kappa times the step of burial; zero: burial does not count
-  float deepest_m = 0.0f;            ///< the largest kappa b_k: no score is farther above its distance
-  bool sorted_axes = true;           ///< all tables have their axes by falling radius, as BakedEllipsoid has
+  engine::HostedArray<std::uint8_t> texels;  ///< pairs (h, a); padded, since kernels read two texels at once
+  engine::HostedArray<std::uint8_t>
+      burial;               ///< one byte a texel, padded likewise; empty: the proxy is not bound
+  float burial_m = 0.0f;    ///< kappa times the step of burial; zero: burial does not count
+  float deepest_m = 0.0f;   ///< the largest kappa b_k: no score is farther above its distance
+  bool sorted_axes = true;  ///< all tables have their axes by falling radius, as BakedEllipsoid has
   float in_m = 0.0f, out_m = 0.0f, blend_m = 0.0f;
   float highest_m = 0.0f;            ///< F_k >= d_k - highest_m for all k
   std::vector<OctantReach> reaches;  ///< one an ellipsoid

@@ -123,8 +123,9 @@ typedef struct bodice_context_options {
   int32_t reserved;
   /** Receives one line, ended by a zero and without a newline. Calls never overlap. */
   void (*log)(void* host, int32_t level, const char* message);
-  /** Memory for the arrays that calls copy particles and results into. Both or neither; null is a failure.
-   * What the engine itself stores comes from malloc and operator new. */
+  /** Memory for arrays that grow with particles or with texels: those of workspaces, and of colliders with
+   * relief. Both or neither; null is a failure. May be called from any thread, several at a time. Smaller
+   * blocks and proxies come from malloc and operator new. */
   void* (*allocate)(void* host, size_t bytes, size_t alignment);
   void (*release)(void* host, void* block, size_t bytes);
   /** Nanoseconds since any start, never falling; null: the monotonic clock of the machine. */

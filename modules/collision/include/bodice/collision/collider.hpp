@@ -8,6 +8,7 @@
 #include <span>
 
 #include <bodice/engine/context.hpp>
+#include <bodice/engine/memory_resource.hpp>
 #include <bodice/proxy/body_proxy.hpp>
 #include <bodice/proxy/posed_proxy.hpp>
 
@@ -104,10 +105,11 @@ struct ContactReport {
 /// that the speed does not depend on the order of the arrays. It also holds the candidate cache, which stays
 /// valid while particles and proxy move by millimeters. It never changes a bit of a result and refreshes
 /// itself; any collider may use it. It is not thread-safe. It allocates about 35 bytes a particle, half of it
-/// in the second call, and again when the number of particles grows.
+/// in the second call, and again when the number of particles grows, out of `memory` if it is given, which
+/// outlives the workspace.
 class Workspace {
  public:
-  Workspace();
+  explicit Workspace(engine::MemoryResource* memory = nullptr);
   ~Workspace();
   Workspace(Workspace&&) noexcept;
   Workspace& operator=(Workspace&&) noexcept;
@@ -125,8 +127,9 @@ struct StridedParticles;
 class Collider {
  public:
   /// Prepares a proxy; allocates. O(#ellipsoids + #texels), for 89 ellipsoids 10 microseconds, with relief 2
-  /// milliseconds: do it beside the frames.
-  explicit Collider(const proxy::BodyProxy& proxy);
+  /// milliseconds: do it beside the frames. The tables of relief lie in `memory` if it is given, which
+  /// outlives the collider.
+  explicit Collider(const proxy::BodyProxy& proxy, engine::MemoryResource* memory = nullptr);
   ~Collider();
   Collider(Collider&&) noexcept;
   Collider& operator=(Collider&&) noexcept;
