@@ -14,7 +14,7 @@ import sys
 import tempfile
 import time
 
-POINTS, PART, CALLS, TURNS = 100000, 10000, 20, 4
+POINTS, PART, CALLS, TURNS = 100000, 10000, 60, 4
 HERE = pathlib.Path(__file__).resolve().parent
 BARS = {"Python": 1.2, "WebAssembly": 4.0}
 
