@@ -65,9 +65,16 @@ void check(bodice_status status) {
   if (status != BODICE_OK) CHECK(std::strlen(bodice_last_error()) > 10);
 }
 
+// Calls of a progress are a matter of time, and sanitizers take ten times as long.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int kCallsUntilCanceled = 60;
+#else
+constexpr int kCallsUntilCanceled = 10;
+#endif
+
 /// Cancels work that has gone on for a while: garbage may want a million frames.
 struct Patience {
-  int left = 10;
+  int left = kCallsUntilCanceled;
   static std::int32_t ask(void* host, const char*) { return --static_cast<Patience*>(host)->left < 0; }
 };
 
@@ -127,7 +134,7 @@ TEST_CASE("capi: garbage in meshes, options of skins and options of fits ends in
     fit.bind = draw.whole(1);
     fit.progress = Patience::ask;
     fit.host = &patience;
-    patience.left = 10;
+    patience.left = kCallsUntilCanceled;
     bodice_proxy* proxy = nullptr;
     bodice_fit_report report = bodice_default_fit_report();
     CAPTURE(round);

@@ -7,10 +7,10 @@
 namespace bodice::inline v0_1::tryon {
 
 std::vector<int> frames_to_keep(int frames, int kept) {
-  const int count = std::clamp(kept, 2, frames + 1);
+  const int gaps = std::min(std::max(kept, 2) - 1, frames);  // frames + 1 might overflow
   std::vector<int> keep;
-  for (int i = 0; i < count; ++i)
-    keep.push_back(static_cast<int>(std::lround(static_cast<double>(frames) * i / (count - 1))));
+  for (int i = 0; i <= gaps; ++i)
+    keep.push_back(static_cast<int>(std::lround(static_cast<double>(frames) * i / gaps)));
   keep.erase(std::unique(keep.begin(), keep.end()), keep.end());
   return keep;
 }
