@@ -185,19 +185,18 @@ bool measure(const char* name, const synth::Body& body, proxy::Tier tier, std::s
 }
 
 constexpr const char* kUsage =
-    "embedding [PARTICLES] [ROUNDS] [FOLDER]    default: 10000 300\n"
-    "What a call of bodice.h costs beside the C++ call, on one thread, measured in turns. Exits with 1 if a "
-    "call\n"
-    "takes over 2 % longer, or if a warm frame calls malloc.\n"
-    "With a FOLDER, proxies and particles are written there, and distances alone are measured, for "
-    "rows.py.\n";
+    "embedding [PARTICLES] [ROUNDS] [FOLDER]    default: 10000 2000\n"
+    "What a call of bodice.h costs beside the C++ call, on one thread, measured in turns.\n"
+    "Exits with 1 if a call takes over 2 % longer, or if a warm frame calls malloc.\n"
+    "With a FOLDER, proxies and particles are written there, and distances alone are\n"
+    "measured, for rows.py.\n";
 
 }  // namespace
 
 int main(int argc, char** argv) {
   if (bench::help_requested(argc, argv, kUsage)) return 0;
   const std::size_t count = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 10000;
-  const int rounds = argc > 2 ? std::atoi(argv[2]) : 300;
+  const int rounds = argc > 2 ? std::atoi(argv[2]) : 2000;
   const auto body = synth::make_body(engine::Context{}, {});
   if (!body) return std::puts(body.error().sentence().c_str()), 1;
   std::printf("%s; %zu particles, microseconds a call\n\n", bodice_build(), count);

@@ -15,9 +15,10 @@ namespace {
 struct Counted {
   std::atomic<std::size_t> blocks{0}, bytes{0}, calls{0};
   std::atomic<bool> exhausted{false};
+  std::atomic<int> left{1 << 30};  ///< blocks until it is exhausted
   static void* allocate(void* host, std::size_t bytes, std::size_t alignment) {
     auto& self = *static_cast<Counted*>(host);
-    if (self.exhausted) return nullptr;
+    if (self.exhausted || self.left-- <= 0) return nullptr;
     ++self.blocks, ++self.calls, self.bytes += bytes;
     return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
   }
@@ -114,6 +115,50 @@ TEST_CASE("capi: arrays that grow with particles or texels lie in memory of the 
   }
   CHECK(memory.blocks == 0);
   CHECK(memory.bytes == 0);
+}
+
+TEST_CASE("capi: after a call that memory ran out in, wherever, the next one has the bits of any other") {
+  Counted memory;
+  bodice_context_options options = bodice_default_context_options();
+  options.host = &memory;
+  options.allocate = Counted::allocate;
+  options.release = Counted::release;
+  auto context = bodice::Context::create(options);
+  REQUIRE(context);
+  const Scene scene(limb_proxy(true));
+  const auto proxy = make_proxy(*context, limb_proxy(true));
+  const auto collider = bodice::Collider::create(*context, proxy);
+  const std::vector<double> start = world_of(scene, 3000, 8);
+  bodice::Particles particles(3000);
+  // Two calls, of which the second one makes the candidate cache.
+  const auto resolve_twice = [&](const bodice::Workspace& workspace, std::vector<double>& world) {
+    particles.position(world.data());
+    for (int call = 0; call < 2; ++call) {
+      const bodice_status status =
+          bodice_resolve(collider->get(), &particles, nullptr, workspace.get(), nullptr);
+      if (status != BODICE_OK) return status;
+    }
+    return bodice_status{BODICE_OK};
+  };
+  std::vector<double> expected = start;
+  REQUIRE(resolve_twice(*bodice::Workspace::create(*context), expected) == BODICE_OK);
+  REQUIRE(expected != start);
+  int failures = 0;
+  for (int blocks = 0;; ++blocks) {
+    CAPTURE(blocks);
+    const auto workspace = bodice::Workspace::create(*context);
+    std::vector<double> world = start;
+    memory.left = blocks;
+    const bodice_status status = resolve_twice(*workspace, world);
+    memory.left = 1 << 30;
+    if (status == BODICE_OK) break;
+    ++failures;
+    CHECK(status == BODICE_OUT_OF_MEMORY);
+    world = start;
+    REQUIRE(resolve_twice(*workspace, world) == BODICE_OK);
+    CHECK(world == expected);
+  }
+  CHECK(failures >= 6);  // five arrays of the order, and the cache
 }
 
 TEST_CASE("capi: a frame allocates nothing once warm, for any number of workers and form of arrays") {

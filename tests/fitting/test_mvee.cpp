@@ -106,9 +106,9 @@ TEST_CASE("mvee: all of a hundred thousand small sets are certified") {
     const Mvee m = fitting::mvee(set);
     not_finite += !finite(m);
     violated += m.violation > 1e-9;
-    // In flat sets, rounding across the plane may take up to 1e-6 of a level. In sets that are nearly flat it
-    // takes what the coordinates are rounded by, beside the thickness: one of these sets is 4 nm thick and 3
-    // m away.
+    // In flat sets, rounding across the plane may take up to 1e-6 of a level. A set that is nearly flat has
+    // coordinates that are rounded by a share of its thickness: one set here is 4 nm thick, 3 m from the
+    // origin.
     double coordinate = 0.0;
     for (const Vec3& p : set) coordinate = std::max(coordinate, p.cwiseAbs().maxCoeff());
     const double rounding =

@@ -91,19 +91,6 @@ void HostMemory::release(void* block, std::size_t bytes, std::size_t) noexcept {
   options_.release(options_.host, block, bytes);
 }
 
-void* ContextState::allocate(std::size_t bytes) const {
-  if (!options_.allocate) return ::operator new(bytes, std::align_val_t(kAlignment));
-  return memory_.allocate(bytes, kAlignment);
-}
-
-void ContextState::release(void* block, std::size_t bytes) const noexcept {
-  if (!block) return;
-  if (options_.allocate)
-    memory_.release(block, bytes, kAlignment);
-  else
-    ::operator delete(block, std::align_val_t(kAlignment));
-}
-
 }  // namespace bodice::capi
 
 bodice_status bodice_context_create(const bodice_context_options* options, bodice_context** context) {

@@ -54,11 +54,9 @@ class ContextState {
   const bodice_context_options& options() const { return options_; }
   /// The engine's view of the context; it refers to this object.
   engine::Context engine_context() const;
-  /// Memory of the host, or of malloc. Throws std::bad_alloc.
-  void* allocate(std::size_t bytes) const;
-  void release(void* block, std::size_t bytes) const noexcept;
-  /// Memory of the host for what the engine stores; null: the host provides none.
-  engine::MemoryResource* engine_memory() const { return options_.allocate ? &memory_ : nullptr; }
+  /// Memory of the host for large arrays; null: it provides none, and they lie in that of the standard
+  /// library.
+  engine::MemoryResource* memory() const { return options_.allocate ? &memory_ : nullptr; }
 
  private:
   bodice_context_options options_;
@@ -75,8 +73,8 @@ using SharedContext = std::shared_ptr<const ContextState>;
 template <class T>
 class HostArray {
  public:
-  explicit HostArray(SharedContext context) : context_(std::move(context)) {}
-  ~HostArray() { context_->release(data_, capacity_ * sizeof(T)); }
+  explicit HostArray(SharedContext context) : context_(std::move(context)), allocator_(context_->memory()) {}
+  ~HostArray() { release(); }
   HostArray(const HostArray&) = delete;
   HostArray& operator=(const HostArray&) = delete;
 
@@ -84,16 +82,21 @@ class HostArray {
   T* reserve(std::size_t count) {
     if (count <= capacity_) return data_;
     const std::size_t capacity = count + count / 8;
-    void* block = context_->allocate(capacity * sizeof(T));
-    context_->release(data_, capacity_ * sizeof(T));
-    data_ = static_cast<T*>(block);
+    T* const block = allocator_.allocate(capacity);
+    release();
+    data_ = block;
     capacity_ = capacity;
     return data_;
   }
   T* data() const { return data_; }
 
  private:
+  void release() {
+    if (data_) allocator_.deallocate(data_, capacity_);
+  }
+
   SharedContext context_;
+  engine::MemoryAllocator<T> allocator_;
   T* data_ = nullptr;
   std::size_t capacity_ = 0;
 };

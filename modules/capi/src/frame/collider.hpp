@@ -10,7 +10,7 @@
 
 struct bodice_collider {
   bodice_collider(bodice::capi::SharedContext shared, const bodice::proxy::BodyProxy& made_from)
-      : context(std::move(shared)), proxy(made_from), collider(made_from, context->engine_memory()) {}
+      : context(std::move(shared)), proxy(made_from), collider(made_from, context->memory()) {}
 
   bodice::capi::SharedContext context;
   bodice::proxy::BodyProxy proxy;

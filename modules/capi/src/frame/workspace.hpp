@@ -7,7 +7,7 @@
 struct bodice_workspace {
   explicit bodice_workspace(bodice::capi::SharedContext shared)
       : context(shared),
-        engine(shared->engine_memory()),
+        engine(shared->memory()),
         numbers(shared),
         element(shared),
         claim(shared),

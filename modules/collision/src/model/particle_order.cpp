@@ -129,8 +129,7 @@ void ParticleOrder::refresh(const ParticleView& particles) {
   if (!changed && spread_when_sorted_m_ < 0.0) spread_when_sorted_m_ = spread;
   if (!changed && spread <= kSortAgain * spread_when_sorted_m_) return;
   radius_m_.assign((count + kBlock - 1) / kBlock, 0.0f);
-  // The order is last: where memory runs out before, the next call sees that the number of particles has
-  // changed.
+  // The order is last, because its size states what was sorted: where memory runs out, the next call sorts.
   for (engine::HostedArray<std::uint32_t>* values : {&other_order_, &key_, &other_key_, &order_})
     values->resize(count);
   spread_when_sorted_m_ = -1.0;

@@ -27,8 +27,8 @@ struct SkinnedBody {
   const geometry::TriMesh& skin;    ///< meters, y up
   const rig::Skeleton& skeleton;    ///< valid
   const rig::SkinWeights& weights;  ///< mended, of the skin's vertices
-  /// #V: the limb of each vertex. If it is given, binding bends the limbs in exercises, and raises the burial
-  /// of those texels that stand out of the skin in them. If it is empty, texels keep the burial at rest.
+  /// #V: the limb of each vertex. With limbs, binding bends them in exercises, and raises the burial of those
+  /// texels that stand out of the skin meanwhile. Without limbs the burial of all texels is that at rest.
   std::span<const body::Part> part = {};
 };
 
