@@ -49,6 +49,10 @@ test('a proxy of the native program gives its distances', () => {
                      .split('\n').filter(line => line && !line.startsWith('#')).map(line => Number(line.split(/\s+/)[0]));
   assert.equal(native.length, 2000);
   const distance = body.signedDistance(points);
+  const into = new Float32Array(2000);
+  assert.equal(body.signedDistance(points, {into}), into);
+  assert.deepEqual(into, distance);
+  assert.throws(() => body.signedDistance(points, {into: new Float32Array(1999)}), /1999 elements. Pass a Float32Array of 2000/);
   let worst = 0;
   distance.forEach((d, i) => { worst = Math.max(worst, Math.abs(d - native[i])); });
   assert.ok(worst < 2e-6, `they differ by ${worst} m`);
@@ -92,6 +96,7 @@ test('particles inside come out, pinned ones stay, and contacts have unit normal
   }
   assert.ok(body.signedDistance(start, {within: 0.01}).every(d => d <= 0.0101 || d === Infinity));
   particles.destroy();
+  assert.throws(() => body.resolve(particles), /was destroyed/);
 });
 
 test('a bound proxy moves with its joints', () => {

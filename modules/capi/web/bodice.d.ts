@@ -76,6 +76,11 @@ export interface QueryOptions {
   fast?: boolean;
 }
 
+export interface DistanceOptions extends QueryOptions {
+  /** The distances go into this array of one element a point, which is returned: frames allocate no other. */
+  into?: Float32Array;
+}
+
 export interface Contacts {
   /** Negative inside. */
   distance: Float32Array;
@@ -101,7 +106,7 @@ export interface Body extends Owned {
   bindMatrix(joint: number): Float64Array;
   /** Poses a bound proxy: 12 numbers a joint, joint space to world; `dt`: seconds since the last pose. */
   pose(matrices: Numbers, dt?: number): void;
-  signedDistance(points: Numbers, options?: QueryOptions): Float32Array;
+  signedDistance(points: Numbers, options?: DistanceOptions): Float32Array;
   contacts(points: Numbers, options?: QueryOptions): Contacts;
   /** Room for particles in the memory of the library, so that frames copy nothing. */
   particles(count: number): Particles;

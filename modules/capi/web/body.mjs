@@ -55,8 +55,10 @@ export class Body extends Owner {
   contacts(points, options) {
     return this._query(points, options ?? {});
   }
-  _query(points, {within = Infinity, fast = false, distanceOnly = false}) {
+  _query(points, {within = Infinity, fast = false, distanceOnly = false, into}) {
     const count = triples(points, 'points');
+    if (distanceOnly && into && !(into instanceof Float32Array && into.length === count))
+      throw new BodiceError(`The array "into" has ${into.length} elements. Pass a Float32Array of ${count}.`);
     return this._library.use(call => {
       const at = call.put(Float32Array, points), distance = call.room(Float32Array, count);
       const wanted = distanceOnly ? 0 : count;
@@ -64,8 +66,8 @@ export class Body extends Owner {
       const ellipsoid = wanted && call.room(Uint32Array, count), part = wanted && call.room(Uint8Array, count);
       this._library.check(this._module._web_query(this._live, at, count, within, fast ? 1 : 0, distance, point, normal,
                                                   ellipsoid, part));
+      if (distanceOnly) return {distance: call.get(Float32Array, distance, count, into)};
       const found = {distance: call.get(Float32Array, distance, count)};
-      if (distanceOnly) return found;
       found.point = call.get(Float32Array, point, 3 * count);
       found.normal = call.get(Float32Array, normal, 3 * count);
       found.ellipsoid = Int32Array.from(call.get(Uint32Array, ellipsoid, count), e => e === NONE ? -1 : e);
@@ -77,6 +79,7 @@ export class Body extends Owner {
     return new Particles(this._library, count);
   }
   resolve(particles, {thickness = 0, friction = 0.3} = {}) {
+    particles._live;  // throws where they were destroyed: their memory may have another owner
     const contacts = this._module._web_resolve(this._live, particles._position, particles._velocity,
                                                particles._inverseMass, particles.count, thickness, friction);
     if (contacts < 0) this._library.fail();

@@ -30,8 +30,9 @@ class Call {
     new Type(this.module.HEAPU8.buffer, at, values.length).set(values);
     return at;
   }
-  get(Type, at, count) {
-    return new Type(this.module.HEAPU8.buffer, at, count).slice();
+  get(Type, at, count, into = new Type(count)) {
+    into.set(new Type(this.module.HEAPU8.buffer, at, count));
+    return into;
   }
   end() {
     for (const block of this.blocks) this.module._free(block);
