@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 
 #include <doctest/doctest.h>
 
+#include <bodice/binding/poser.hpp>
+#include <bodice/engine/random.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 #include <bodice_test/executors.hpp>
 
@@ -96,6 +99,9 @@ TEST_CASE("a damaged binding is refused wherever it is cut, and no index leads o
   CHECK_FALSE(refuses([](proxy::Binding&) {}));
   CHECK(refuses([](proxy::Binding& b) { b.terms[0].joint = 60000; }));
   CHECK(refuses([](proxy::Binding& b) { b.entries[0].term = 60000; }));
+  CHECK(refuses([](proxy::Binding& b) { std::ranges::fill(b.first_term, 0u), b.terms.clear(); }));
+  CHECK(refuses([](proxy::Binding& b) { b.first_term[1] = 0; }));
+  CHECK(refuses([](proxy::Binding& b) { b.joint_names[0].assign(65536, 'j'); }));
   CHECK(refuses([](proxy::Binding& b) { b.bundles[0].texel[3] = 65535; }));
   CHECK(refuses([](proxy::Binding& b) { b.followers[0] = 65535; }));
   CHECK(refuses([](proxy::Binding& b) { b.first_bundle[1] = 1u << 30; }));
@@ -103,6 +109,59 @@ TEST_CASE("a damaged binding is refused wherever it is cut, and no index leads o
   CHECK(refuses([](proxy::Binding& b) { b.burial.pop_back(); }));
   CHECK(refuses([](proxy::Binding& b) { b.bind[0](1, 1) = std::numeric_limits<double>::quiet_NaN(); }));
   CHECK(refuses([](proxy::Binding& b) { b.step_m[0] = std::numeric_limits<float>::infinity(); }));
+}
+
+TEST_CASE("a binding of random numbers is refused, or it can be posed") {
+  const MovingBody& moving = moving_body();
+  engine::Random random(17);
+  const auto any = [&](std::size_t size) { return static_cast<std::size_t>(random.uniform() * size); };
+  const auto number = [&] {  // small ones and the largest find most limits
+    const std::uint32_t near[] = {0, 1, 2, 88, 255, 256, 65535, 0xffffffffu};
+    return random.uniform() < 0.5 ? near[any(8)] : static_cast<std::uint32_t>(any(100000));
+  };
+  int posed = 0, refused = 0;
+  for (int round = 0; round < 3000; ++round) {
+    auto binding = std::make_shared<proxy::Binding>(*moving.bound.binding());
+    proxy::Binding& b = *binding;
+    switch (round % 8) {
+      case 0:
+        b.first_term[any(b.first_term.size())] = number();
+        break;
+      case 1:
+        b.terms[any(b.terms.size())].joint = static_cast<std::uint16_t>(number());
+        break;
+      case 2:
+        b.first_bundle[any(b.first_bundle.size())] = number();
+        break;
+      case 3:
+        b.bundles[any(b.bundles.size())].texel[any(8)] = static_cast<std::uint16_t>(number());
+        break;
+      case 4:
+        b.first_entry[any(b.first_entry.size())] = number();
+        break;
+      case 5:
+        b.entries[any(b.entries.size())].term = static_cast<std::uint16_t>(number());
+        break;
+      case 6:
+        b.first_follower[any(b.first_follower.size())] = number();
+        break;
+      default:
+        b.followers[any(b.followers.size())] = static_cast<std::uint16_t>(number());
+        break;
+    }
+    proxy::BodyProxy::Data data = moving.bound.data();
+    data.binding = binding;
+    const auto made = proxy::BodyProxy::make(std::move(data));
+    if (!made) {
+      ++refused;
+      continue;
+    }
+    auto poser = binding::Poser::make(*made);
+    REQUIRE(poser);
+    if (posed++ % 20 == 0) CHECK(poser->pose(engine::Context{}, std::span<const proxy::JointMatrix>(b.bind)));
+  }
+  CHECK(posed > 100);
+  CHECK(refused > 1000);
 }
 
 TEST_CASE("weights of another skin and a rig without joints are refused in a sentence") {

@@ -64,8 +64,8 @@ void add_bundle(std::span<const SkinNode> nodes, double step_m, proxy::Binding& 
     const SkinNode& node = nodes[std::min<std::size_t>(static_cast<std::size_t>(lane), nodes.size() - 1)];
     bundle.texel[lane] = node.texel;
     for (int axis = 0; axis < 3; ++axis) bundle.position[axis][lane] = rounded(node.position[axis] / step_m);
-    const auto foot = proxy::octahedral_map(node.foot);
-    for (int axis = 0; axis < 2; ++axis) bundle.direction[axis][lane] = rounded(kUnit16 * foot[axis]);
+    const auto square = proxy::octahedral_map(node.direction);
+    for (int axis = 0; axis < 2; ++axis) bundle.direction[axis][lane] = rounded(kUnit16 * square[axis]);
     bundle.height[lane] = rounded(node.height_m / step_m);
     double sum = 0.0;
     const auto term_of = [&](std::uint16_t joint) {
@@ -109,7 +109,7 @@ std::vector<SkinNode> find_nodes(const NodeSearch& search, std::size_t k) {
     SkinNode node;
     node.texel = static_cast<std::uint16_t>(i);
     node.position = hit->point - e.center;
-    node.foot = (e.axes.transpose() * (on.point - e.center)).cwiseQuotient(e.radii).normalized();
+    node.direction = (e.axes.transpose() * (on.point - e.center)).cwiseQuotient(e.radii).normalized();
     node.height_m = on.signed_distance;
     node.weights = mean_weights(search.body, *hit);
     nodes.push_back(std::move(node));

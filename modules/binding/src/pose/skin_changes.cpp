@@ -58,7 +58,7 @@ void skin_bundle(const proxy::SkinBundle& bundle, const proxy::SkinEntry* entry,
 /// w_j = r_j y_j / (t + r_j^2), by three steps from below. The axes are written out, since loops over them
 /// inside of the loop over lanes keep the latter from becoming vector code.
 BODICE_CLONES
-void find_feet(const UnitEllipsoid& e, const Lanes (&y)[3], Lanes (&w)[3], Lanes& distance) {
+void find_closest_points(const UnitEllipsoid& e, const Lanes (&y)[3], Lanes (&w)[3], Lanes& distance) {
   constexpr int kSteps = 3;
   constexpr float kInside = -0.9999f, kTiny = 1e-12f;
   const float r0 = e.radius[0], r1 = e.radius[1], r2 = e.radius[2];
@@ -99,7 +99,7 @@ void find_feet(const UnitEllipsoid& e, const Lanes (&y)[3], Lanes (&w)[3], Lanes
   }
 }
 
-/// Changes against the feet and heights at rest, by component.
+/// Changes against the closest points and heights at rest, by component.
 BODICE_CLONES
 void compare(const UnitEllipsoid& e, const proxy::SkinBundle& bundle, const Lanes (&w)[3],
              const Lanes& distance, Lanes (&change)[4]) {
@@ -156,7 +156,7 @@ void find_changes(const proxy::Binding& binding, std::size_t first, std::size_t 
     Lanes at[3], w[3], distance, change[4];
     skin_bundle(bundle, binding.entries.data() + binding.first_entry[i],
                 binding.first_entry[i + 1] - binding.first_entry[i], maps, at);
-    find_feet(unit, at, w, distance);
+    find_closest_points(unit, at, w, distance);
     compare(unit, bundle, w, distance, change);
     for (int l = 0; l < kLanes; ++l)
       changes[bundle.texel[l]] = Change{change[0][l], change[1][l], change[2][l], change[3][l]};

@@ -9,8 +9,8 @@
 
 namespace bodice::inline v0_1::binding {
 
-/// One texel's change: its skin point's foot moved by (x, y, z) on the unit sphere of the rest table, and its
-/// height over the ellipsoid grew by w meters.
+/// One texel's change: the closest point of its skin point moved by (x, y, z) on the unit sphere of the rest
+/// table, and its height over the ellipsoid grew by w meters.
 using Change = geometry::Float4;
 
 /// The maps of an ellipsoid's terms from its bundles' units to its posed frame, in units of its longest

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include <bodice/proxy/proxy_distance.hpp>
+
 namespace bodice::inline v0_1::collision {
 
 using geometry::Vec3;
@@ -39,13 +41,7 @@ struct Cell {
 };
 
 Cell cell_of(const BakedTable& table, const Vec3& w) {
-  const double s = w.cwiseAbs().sum();
-  double px = w.x() / s, py = w.y() / s;
-  if (w.z() < 0.0) {
-    const double folded = (1.0 - std::abs(py)) * sign_of(px);
-    py = (1.0 - std::abs(px)) * sign_of(py);
-    px = folded;
-  }
+  const auto [px, py] = proxy::octahedral_map(w);
   const double half = 0.5 * (table.nodes - 1);
   const double column = (px + 1.0) * half, row = (py + 1.0) * half;
   const int i = std::clamp(static_cast<int>(column), 0, table.nodes - 2);

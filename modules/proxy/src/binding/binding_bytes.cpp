@@ -7,7 +7,7 @@ namespace bodice::inline v0_1::proxy {
 namespace {
 
 constexpr std::uint64_t kTermBytes = 2 + 16 * 8, kBundleBytes = 2 * kBundle * 7 + 4;
-constexpr std::uint64_t kEntryBytes = 2 + 2 * kBundle, kEllipsoidBytes = 16;
+constexpr std::uint64_t kEntryBytes = 2 + 2 * kBundle, kCarriedBytes = 16;
 constexpr std::uint64_t kLeastJointBytes = 2 + 12 * 8;
 
 void put(ByteWriter& out, std::int16_t value) {
@@ -58,7 +58,7 @@ struct Counts {
 
   /// All that follows the joints.
   std::uint64_t bytes() const {
-    return ellipsoids * kEllipsoidBytes + 8 + terms * kTermBytes + texels + bundles * kBundleBytes + 4 +
+    return ellipsoids * kCarriedBytes + 8 + terms * kTermBytes + texels + bundles * kBundleBytes + 4 +
            entries * kEntryBytes + 2 * followers;
   }
 };

@@ -4,7 +4,7 @@
 #include <bodice/engine/hash.hpp>
 #include <bodice/proxy/binding.hpp>
 
-#include "binding/bytes.hpp"
+#include "bytes/bytes.hpp"
 
 namespace bodice::inline v0_1::proxy {
 

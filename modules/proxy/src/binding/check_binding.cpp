@@ -8,8 +8,6 @@ namespace bodice::inline v0_1::proxy {
 namespace {
 
 constexpr std::size_t kMostJoints = 65535;
-// Matrices beyond this would leave the range of double when they are multiplied.
-constexpr double kLargest = 1e30;
 
 /// Whether the firsts ascend from 0 to `end` in `count` steps.
 bool are_ranges(const std::vector<std::uint32_t>& first, std::size_t count, std::size_t end) {
@@ -18,13 +16,15 @@ bool are_ranges(const std::vector<std::uint32_t>& first, std::size_t count, std:
 }
 
 bool is_finite(double value) {
-  return std::abs(value) <= kLargest;
+  return std::abs(value) <= kLargestEntry;
 }
 
 std::string counts_fault(const Binding& b, const BodyProxy::Data& data) {
   const std::size_t ellipsoids = data.ellipsoids.size();
   if (b.joint_names.size() > kMostJoints || b.bind.size() != b.joint_names.size())
     return "the binding has no bind matrix for each of its joints";
+  if (std::ranges::any_of(b.joint_names, [](const std::string& name) { return name.size() > kLongestName; }))
+    return "a joint's name has more than 65,535 bytes";
   if (!are_ranges(b.first_term, ellipsoids, b.terms.size()))
     return "the binding does not have terms for each ellipsoid";
   if (!are_ranges(b.first_bundle, ellipsoids, b.bundles.size()) || b.step_m.size() != ellipsoids ||
@@ -65,6 +65,7 @@ std::string binding_fault(const Binding& b, const BodyProxy::Data& data) {
     if (term.joint >= b.joint_names.size() || !std::ranges::all_of(term.matrix, is_finite))
       return "a term of the binding has no joint or is not finite";
   for (std::size_t k = 0; k < data.ellipsoids.size(); ++k) {
+    if (b.first_term[k] == b.first_term[k + 1]) return "ellipsoid " + std::to_string(k) + " has no joint";
     if (data.ellipsoids[k].bone >= static_cast<std::int64_t>(b.joint_names.size()))
       return "ellipsoid " + std::to_string(k) + " has a bone beyond the joints";
     if (b.first_bundle[k] == b.first_bundle[k + 1]) continue;

@@ -11,7 +11,7 @@
 #include <bodice/geometry/split_pinches.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
 
-#include "crossed_cells.hpp"
+#include "surface/crossed_cells.hpp"
 
 namespace bodice::inline v0_1::proxy {
 namespace {

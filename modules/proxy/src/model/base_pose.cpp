@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "binding/check_binding.hpp"
+
 namespace bodice::inline v0_1::proxy {
 namespace {
-
-// Numbers beyond this would leave the range of double when they are multiplied.
-constexpr double kLargest = 1e30;
-constexpr std::size_t kLongestName = 65535;
 
 engine::Error unfit(std::string what) {
   return {engine::ErrorCode::kInvalidArgument, "Base pose: " + std::move(what) + ".",
@@ -26,7 +24,7 @@ bool is_finite(const ReliefTable& table) {
 }
 
 bool is_finite(const JointMatrix& joint) {
-  return joint.cwiseAbs().maxCoeff() <= kLargest;  // false for what is not a number
+  return joint.cwiseAbs().maxCoeff() <= kLargestEntry;  // false for what is not a number
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include <bodice/engine/write_file.hpp>
 
-#include "proxy_binary.hpp"
+#include "file/proxy_binary.hpp"
 
 namespace bodice::inline v0_1::proxy {
 namespace {

@@ -1,11 +1,14 @@
-// Little-endian bytes on any machine.
+// Little-endian bytes on any machine, their checksum, and their digits in text.
 #pragma once
 
 #include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace bodice::inline v0_1::proxy {
@@ -55,5 +58,13 @@ class ByteReader {
   std::size_t at_ = 0;
   bool ok_ = true;
 };
+
+/// What the files of a proxy end with.
+std::uint64_t checksum(std::span<const std::byte> bytes);
+
+/// Two lower-case hexadecimal digits a byte.
+std::string to_hex(std::span<const std::byte> bytes);
+/// Nothing if a character is none of those digits, or the last byte is not whole.
+std::optional<std::vector<std::byte>> from_hex(std::string_view text);
 
 }  // namespace bodice::proxy

@@ -10,6 +10,5 @@ inline constexpr std::string_view kJsonFormat = "bodice-proxy";
 /// Proxies without a binding are written in version 2, so that earlier builds read them.
 inline constexpr int kJsonVersion = 2, kBoundJsonVersion = 3;
 inline constexpr std::array<std::string_view, 3> kAxisNames = {"x", "y", "z"};
-inline constexpr std::string_view kHexDigits = "0123456789abcdef";
 
 }  // namespace bodice::proxy

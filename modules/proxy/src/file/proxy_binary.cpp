@@ -7,7 +7,7 @@
 //   texel:      u8 h, u8 a
 //   since version 3: u32 1 and a binding (binding/binding_bytes.hpp)
 //   u64 checksum of all bytes before it; base poses may follow (base_pose_file.cpp)
-#include "proxy_binary.hpp"
+#include "file/proxy_binary.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,9 +17,9 @@
 #include <bodice/engine/hash.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 
-#include "base_section.hpp"
 #include "binding/binding_bytes.hpp"
-#include "binding/bytes.hpp"
+#include "bytes/bytes.hpp"
+#include "file/base_section.hpp"
 
 namespace bodice::inline v0_1::proxy {
 namespace {
@@ -32,13 +32,6 @@ constexpr std::uint64_t kEllipsoidBytes = 124, kTableBytes = 24, kTexelBytes = 2
 engine::Error damaged(std::string what) {
   return {engine::ErrorCode::kUnreadable, "Binary proxy: " + std::move(what) + ".",
           "Write the file again with 'bodice fit'."};
-}
-
-std::uint64_t checksum(std::span<const std::byte> bytes) {
-  engine::Hasher hasher;
-  hasher.add(bytes.size());
-  for (std::byte b : bytes) hasher.add(std::to_integer<std::uint8_t>(b));
-  return hasher.value();
 }
 
 void put_ellipsoid(ByteWriter& out, const ProxyEllipsoid& e) {

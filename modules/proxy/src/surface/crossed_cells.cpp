@@ -1,4 +1,4 @@
-#include "crossed_cells.hpp"
+#include "surface/crossed_cells.hpp"
 
 #include <cmath>
 

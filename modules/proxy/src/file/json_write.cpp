@@ -7,7 +7,7 @@
 #include <bodice/proxy/proxy_file.hpp>
 
 #include "binding/binding_bytes.hpp"
-#include "json_form.hpp"
+#include "file/json_form.hpp"
 
 namespace bodice::inline v0_1::proxy {
 namespace {
@@ -52,28 +52,20 @@ std::string lines(const Items& items, Line&& line) {
 }
 
 std::string texel_hex(std::span<const ReliefTexel> texels) {
-  std::string text;
-  text.reserve(4 * texels.size());
+  std::vector<std::byte> bytes;
+  bytes.reserve(2 * texels.size());
   for (const ReliefTexel& texel : texels)
-    for (unsigned byte : {unsigned{texel.h}, unsigned{texel.a}}) {
-      text += kHexDigits[byte >> 4];
-      text += kHexDigits[byte & 15];
-    }
-  return text;
+    bytes.insert(bytes.end(), {static_cast<std::byte>(texel.h), static_cast<std::byte>(texel.a)});
+  return to_hex(bytes);
 }
 
 /// The joints' names for people, and the binding in its binary form: meters and y up in any file.
 std::string binding_line(const Binding& binding) {
   ByteWriter bytes;
   put_binding(bytes, binding);
-  std::string hex;
-  for (const std::byte byte : bytes.written()) {
-    hex += kHexDigits[std::to_integer<unsigned>(byte) >> 4];
-    hex += kHexDigits[std::to_integer<unsigned>(byte) & 15];
-  }
   Json object;
   object["joints"] = binding.joint_names;
-  object["bytes"] = std::move(hex);
+  object["bytes"] = to_hex(bytes.written());
   return object.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

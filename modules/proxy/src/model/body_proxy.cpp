@@ -3,8 +3,8 @@
 #include <bodice/engine/hash.hpp>
 
 #include "binding/binding_bytes.hpp"
-#include "check.hpp"
-#include "round44.hpp"
+#include "model/check.hpp"
+#include "model/round44.hpp"
 
 namespace bodice::inline v0_1::proxy {
 namespace {

@@ -1,4 +1,4 @@
-#include "check.hpp"
+#include "model/check.hpp"
 
 #include "binding/check_binding.hpp"
 

@@ -15,10 +15,10 @@
 #include <bodice/proxy/base_pose.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 
-#include "base_section.hpp"
-#include "binding/bytes.hpp"
-#include "json_form.hpp"
-#include "proxy_binary.hpp"
+#include "bytes/bytes.hpp"
+#include "file/base_section.hpp"
+#include "file/json_form.hpp"
+#include "file/proxy_binary.hpp"
 
 namespace bodice::inline v0_1::proxy {
 namespace {
@@ -31,13 +31,6 @@ constexpr const char* kJsonKey = "base_poses";
 engine::Error damaged_bases(std::string what) {
   return {engine::ErrorCode::kUnreadable, "Base poses: " + std::move(what) + ".",
           "Write the file again with 'bodice fit'."};
-}
-
-std::uint64_t bases_checksum(std::span<const std::byte> bytes) {
-  engine::Hasher hasher;
-  hasher.add(bytes.size());
-  for (const std::byte b : bytes) hasher.add(std::to_integer<std::uint8_t>(b));
-  return hasher.value();
 }
 
 void put_base(ByteWriter& out, const BasePose& base) {
@@ -60,7 +53,7 @@ std::vector<std::byte> bases_bytes(const ProxyWithBases& both) {
   out.put(both.proxy.hash());
   out.put(static_cast<std::uint32_t>(both.bases.size()));
   for (const auto& base : both.bases) put_base(out, *base);
-  out.put(bases_checksum(out.written()));
+  out.put(checksum(out.written()));
   return out.take();
 }
 
@@ -89,7 +82,7 @@ engine::Result<BasePoses> get_bases(const BodyProxy& bound, std::span<const std:
   if (bytes.empty()) return BasePoses{};
   if (bytes.size() < kChecksumBytes) return damaged_bases("they are cut short");
   const auto content = bytes.first(bytes.size() - kChecksumBytes);
-  if (ByteReader(bytes.last(kChecksumBytes)).get<std::uint64_t>() != bases_checksum(content))
+  if (ByteReader(bytes.last(kChecksumBytes)).get<std::uint64_t>() != checksum(content))
     return damaged_bases("their checksum does not match");
   ByteReader in(content);
   if (const auto version = in.get<std::uint32_t>(); version != kBasesVersion)
@@ -106,23 +99,6 @@ engine::Result<BasePoses> get_bases(const BodyProxy& bound, std::span<const std:
   }
   if (in.left() != 0) return damaged_bases("their counts do not fit their length");
   return bases;
-}
-
-std::string to_hex(std::span<const std::byte> bytes) {
-  std::string hex;
-  for (const std::byte byte : bytes) {
-    hex += kHexDigits[std::to_integer<unsigned>(byte) >> 4];
-    hex += kHexDigits[std::to_integer<unsigned>(byte) & 15];
-  }
-  return hex;
-}
-
-std::vector<std::byte> from_hex(const std::string& hex) {
-  std::vector<std::byte> bytes;
-  for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
-    bytes.push_back(
-        static_cast<std::byte>(16 * (kHexDigits.find(hex[i]) & 15) + (kHexDigits.find(hex[i + 1]) & 15)));
-  return bytes;
 }
 
 std::string json_with_bases(const ProxyWithBases& both) {
@@ -150,7 +126,7 @@ std::vector<std::byte> bases_in(const fs::path& file) {
   if (!root.is_object() || !root.contains(kJsonKey)) return {};
   const auto& member = root[kJsonKey];
   if (!member.is_object() || !member.contains("bytes") || !member["bytes"].is_string()) return {};
-  return from_hex(member["bytes"].get<std::string>());
+  return from_hex(member["bytes"].get<std::string>()).value_or(std::vector<std::byte>{});
 }
 
 }  // namespace

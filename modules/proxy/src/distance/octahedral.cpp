@@ -14,6 +14,8 @@ double sign(double value) {
 
 std::array<double, 2> octahedral_map(const Vec3& w) {
   const double s = w.cwiseAbs().sum();
+  // The center of an ellipsoid that is far away rounds to its own surface, where there is no direction.
+  if (!(s > 0.0)) return {0.0, 0.0};
   const double x = w.x() / s, y = w.y() / s;
   if (w.z() >= 0.0) return {x, y};
   return {(1.0 - std::abs(y)) * sign(x), (1.0 - std::abs(x)) * sign(y)};

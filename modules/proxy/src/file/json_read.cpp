@@ -10,7 +10,7 @@
 #include <bodice/proxy/proxy_file.hpp>
 
 #include "binding/binding_bytes.hpp"
-#include "json_form.hpp"
+#include "file/json_form.hpp"
 
 namespace bodice::inline v0_1::proxy {
 namespace {
@@ -68,19 +68,11 @@ Vec3 vector(const json& value, const std::string& where) {
   return {number(value[0], where), number(value[1], where), number(value[2], where)};
 }
 
-int hex_digit(char c) {
-  const std::size_t at = kHexDigits.find(c);
-  return at == std::string_view::npos ? -1 : static_cast<int>(at);
-}
-
 std::uint64_t hash_value(const json& object, const char* key) {
-  const std::string digits = text(object, key, "");
-  if (digits.size() != 16) fail(key, "16 hexadecimal digits");
+  const auto bytes = from_hex(text(object, key, ""));
+  if (!bytes || bytes->size() != 8) fail(key, "16 hexadecimal digits");
   std::uint64_t value = 0;
-  for (char c : digits) {
-    if (hex_digit(c) < 0) fail(key, "16 hexadecimal digits");
-    value = value << 4 | static_cast<std::uint64_t>(hex_digit(c));
-  }
+  for (const std::byte byte : *bytes) value = value << 8 | std::to_integer<std::uint64_t>(byte);
   return value;
 }
 
@@ -132,19 +124,13 @@ ReliefTable read_table(const json& value, const Frame& frame, const std::string&
 }
 
 std::vector<ReliefTexel> read_texels(const std::string& hex) {
+  const auto bytes = from_hex(hex);
+  if (!bytes || bytes->size() % 2 != 0) fail("texels", "four hexadecimal digits a texel");
   std::vector<ReliefTexel> texels;
-  if (hex.size() % 4 != 0) fail("texels", "four hexadecimal digits a texel");
-  texels.reserve(hex.size() / 4);
-  for (std::size_t i = 0; i < hex.size(); i += 4) {
-    int byte[2];
-    for (int k = 0; k < 2; ++k) {
-      const int high = hex_digit(hex[i + 2 * k]);
-      const int low = hex_digit(hex[i + 2 * k + 1]);
-      if (high < 0 || low < 0) fail("texels", "four hexadecimal digits a texel");
-      byte[k] = 16 * high + low;
-    }
-    texels.push_back({static_cast<std::uint8_t>(byte[0]), static_cast<std::uint8_t>(byte[1])});
-  }
+  texels.reserve(bytes->size() / 2);
+  for (std::size_t i = 0; i < bytes->size(); i += 2)
+    texels.push_back(
+        {std::to_integer<std::uint8_t>((*bytes)[i]), std::to_integer<std::uint8_t>((*bytes)[i + 1])});
   return texels;
 }
 
@@ -181,17 +167,11 @@ void check_format(const json& root) {
 
 std::shared_ptr<const Binding> read_binding(const json& value) {
   if (!value.is_object()) fail("binding", "an object");
-  const std::string hex = text(value, "bytes", "binding.");
-  std::vector<std::byte> bytes;
-  bytes.reserve(hex.size() / 2);
-  for (std::size_t i = 0; i + 1 < hex.size(); i += 2) {
-    const int high = hex_digit(hex[i]), low = hex_digit(hex[i + 1]);
-    if (high < 0 || low < 0) fail("binding.bytes", "hexadecimal");
-    bytes.push_back(static_cast<std::byte>(16 * high + low));
-  }
+  const auto bytes = from_hex(text(value, "bytes", "binding."));
+  if (!bytes) fail("binding.bytes", "hexadecimal");
   auto binding = std::make_shared<Binding>();
-  ByteReader in(bytes);
-  if (hex.size() % 2 != 0 || !get_binding(in, *binding)) fail("binding.bytes", "a whole binding");
+  ByteReader in(*bytes);
+  if (!get_binding(in, *binding)) fail("binding.bytes", "a whole binding");
   return binding;
 }
 

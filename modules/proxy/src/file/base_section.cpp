@@ -1,9 +1,9 @@
-#include "base_section.hpp"
+#include "file/base_section.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "binding/bytes.hpp"
+#include "bytes/bytes.hpp"
 
 namespace bodice::inline v0_1::proxy {
 namespace {
