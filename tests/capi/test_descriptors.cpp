@@ -1,6 +1,7 @@
 // Structures and parameters with every kind of garbage: a status and a sentence, and nothing has happened.
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "capi/scene.hpp"
 
@@ -206,10 +207,16 @@ TEST_CASE("capi: numbers that are no numbers stay where they are and are counted
   const std::vector<float> before = f.xyz;
   bodice_contact_report report = bodice_default_contact_report();
   bodice_resolve_options options = bodice_default_resolve_options();
-  options.thickness_m = bad[0];
   options.friction = -bad[1];
-  options.max_push_m = bad[0];
   const bodice_particles some = f.particles();
+  for (float* setting : {&options.thickness_m, &options.friction, &options.max_push_m, &options.blend_m}) {
+    const float good = std::exchange(*setting, bad[0]);
+    CHECK(bodice_resolve(f.collider.get(), &some, &options, f.workspace.get(), &report) ==
+          BODICE_INVALID_ARGUMENT);
+    CHECK(std::string(bodice_last_error()).find("is not a number") != std::string::npos);
+    *setting = good;
+  }
+  CHECK(std::memcmp(f.xyz.data(), before.data(), before.size() * sizeof(float)) == 0);
   REQUIRE(bodice_resolve(f.collider.get(), &some, &options, f.workspace.get(), &report) == BODICE_OK);
   CHECK(report.not_finite == 2);
   CHECK(std::memcmp(&f.xyz[0], &before[0], 3 * sizeof(float)) == 0);

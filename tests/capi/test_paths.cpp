@@ -53,3 +53,55 @@ TEST_CASE("capi: a sweep stops where the path first touches the body") {
   CHECK(wrong == 0);
   CHECK(hits > 40);
 }
+
+TEST_CASE("capi: a path along the surface, just beyond the thickness, is free to its end") {
+  Scene scene(limb_proxy(false));
+  constexpr float kThickness_m = 0.003f;
+  constexpr double kClear_m = 3e-4, kHalfPath_m = 0.25;
+  const auto shapes = bodice_test::limb();
+  bodice::engine::Random random(5);
+  std::vector<double> from, to;
+  std::vector<bool> is_free;
+  while (is_free.size() < 200) {
+    const bodice_test::Vec3 near = bodice_test::random_vector(random, 0.2) + scene.engine.origin();
+    const auto at = bodice_test::brute_force(shapes, near);
+    if (at.signed_distance < 0.0) continue;
+    const bodice_test::Vec3 along = at.normal.cross(bodice_test::random_direction(random)).normalized();
+    const bodice_test::Vec3 middle = at.point + (double{kThickness_m} + kClear_m) * at.normal;
+    double least_m = 1.0;
+    for (double t = -kHalfPath_m; t <= kHalfPath_m; t += 1e-4)
+      least_m = std::min(least_m, bodice_test::brute_force(shapes, middle + t * along).signed_distance);
+    is_free.push_back(least_m > double{kThickness_m} + 2e-4);
+    const bodice_test::Vec3 ends[2] = {middle - kHalfPath_m * along, middle + kHalfPath_m * along};
+    from.insert(from.end(), ends[0].data(), ends[0].data() + 3);
+    to.insert(to.end(), ends[1].data(), ends[1].data() + 3);
+  }
+  bodice::Particles particles(is_free.size());
+  particles.position(to.data()).safe(from.data());
+  std::vector<float> fraction(is_free.size());
+  REQUIRE(bodice_sweep(scene.collider.get(), &particles, kThickness_m, nullptr, fraction.data(), nullptr) ==
+          BODICE_OK);
+  std::size_t stopped = 0, free = 0;
+  for (std::size_t i = 0; i < is_free.size(); ++i) {
+    free += is_free[i];
+    stopped += is_free[i] && fraction[i] < 1.0f;
+  }
+  CHECK(stopped == 0);
+  CHECK(free > 50);
+}
+
+TEST_CASE("capi: all of three hundred ellipsoids around a point are written") {
+  std::vector<bodice::geometry::Ellipsoid> shapes;
+  for (int i = 0; i < 300; ++i)
+    shapes.push_back({bodice_test::Vec3(0.001 * i, 0.0, 0.0), bodice::geometry::Mat3::Identity(),
+                      bodice_test::Vec3::Constant(0.05)});
+  Scene scene(bodice_test::proxy_of(bodice_test::data_of(shapes)));
+  const double point[3] = {0.15, 0.0, 0.0};
+  std::vector<bodice_contact> all(300);
+  std::size_t found = 0;
+  REQUIRE(bodice_query_all(scene.collider.get(), point, 1.0f, all.data(), all.size(), &found) == BODICE_OK);
+  REQUIRE(found == 300);
+  std::vector<bool> seen(300);
+  for (const bodice_contact& contact : all) seen[contact.ellipsoid] = true;
+  CHECK(std::ranges::count(seen, true) == 300);
+}

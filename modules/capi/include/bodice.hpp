@@ -186,18 +186,31 @@ class Workspace : public detail::Handle<bodice_workspace, bodice_workspace_destr
   }
 };
 
+/// Positions that are read and never written, by pointer and stride: bytes from element to element, 0 for
+/// packed triples. Queries take them.
+struct Points : bodice_particles {
+  template <class Scalar>
+  Points(std::size_t number, const Scalar* x, std::ptrdiff_t stride = 0)
+      : bodice_particles(bodice_default_particles()) {
+    count = number;
+    position = detail::vectors(x, stride);
+  }
+};
+
 /// bodice_particles with arrays set by pointer and stride: bytes from element to element, 0 for packed
-/// triples.
+/// triples. Positions and velocities are written by a response.
 struct Particles : bodice_particles {
   explicit Particles(std::size_t number) : bodice_particles(bodice_default_particles()) { count = number; }
 
   template <class Scalar>
   Particles& position(Scalar* x, std::ptrdiff_t stride = 0) {
+    static_assert(!std::is_const_v<Scalar>, "a response writes this array; for queries take Points");
     bodice_particles::position = detail::vectors(x, stride);
     return *this;
   }
   template <class Scalar>
   Particles& velocity(Scalar* x, std::ptrdiff_t stride = 0) {
+    static_assert(!std::is_const_v<Scalar>, "a response writes this array; for queries take Points");
     bodice_particles::velocity = detail::vectors(x, stride);
     return *this;
   }
@@ -239,6 +252,9 @@ class Collider : public detail::Handle<bodice_collider, bodice_collider_destroy>
                       const bodice_query_options& options = bodice_default_query_options()) const {
     return bodice_query(get(), &particles, &options, workspace.get(), &contacts);
   }
+  Expected<bodice_contact_report> resolve(
+      const Points& points, Workspace& workspace,
+      const bodice_resolve_options& options = bodice_default_resolve_options()) const = delete;
   Expected<bodice_contact_report> resolve(
       const bodice_particles& particles, Workspace& workspace,
       const bodice_resolve_options& options = bodice_default_resolve_options()) const {

@@ -3,9 +3,12 @@
 import contextlib
 import io
 import math
+import os
 import pathlib
+import signal
 import sys
 import tempfile
+import threading
 import unittest
 
 try:
@@ -125,6 +128,28 @@ class Fits(unittest.TestCase):
 
         with self.assertRaises(KeyboardInterrupt):
             bodice.fit(self.vertices, self.faces, progress=interrupt)
+
+    def test_ctrl_c_ends_a_fit_wherever_it_comes(self):
+        for wait_s in (0.02, 0.1, 0.15, 0.2):
+            timer = threading.Timer(wait_s, os.kill, (os.getpid(), signal.SIGINT))
+            timer.start()
+            with self.assertRaises(KeyboardInterrupt):
+                bodice.fit(self.vertices, self.faces)
+                timer.join()
+            self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+
+    def test_failures_have_their_status_and_kind(self):
+        with self.assertRaises(bodice.Canceled) as raised:
+            bodice.fit(self.vertices, self.faces, progress=lambda stage: True)
+        self.assertEqual(raised.exception.status, 5)
+        with self.assertRaises(bodice.Error) as raised:
+            bodice.load_skin("no/such.file")
+        self.assertEqual(raised.exception.status, 2)
+
+    def test_faces_of_another_byte_order_are_the_same_mesh(self):
+        plain = bodice.Exact(self.vertices, self.faces).signed_distance([[0.0, 1.0, 0.0]])
+        swapped = bodice.Exact(self.vertices, self.faces.astype(">i4")).signed_distance([[0.0, 1.0, 0.0]])
+        self.assertEqual(plain[0], swapped[0])
 
     def test_a_found_skeleton_carries_the_proxy(self):
         body = bodice.fit(self.vertices, self.faces, "solid", find_rig=True)

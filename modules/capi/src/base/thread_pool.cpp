@@ -6,10 +6,19 @@ ThreadPool::ThreadPool(int threads, int most_tasks)
     : tasks_(static_cast<std::size_t>(most_tasks)), queue_(tasks_.size()) {
   for (std::uint32_t i = 0; i < tasks_.size(); ++i) free_.push_back(i);
   threads_.reserve(static_cast<std::size_t>(threads));
-  for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
+  try {
+    for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
+  } catch (...) {  // the system gives no more threads; those that run must end before they are destroyed
+    end();
+    throw;
+  }
 }
 
 ThreadPool::~ThreadPool() {
+  end();
+}
+
+void ThreadPool::end() {
   {
     const std::lock_guard lock(mutex_);
     closing_ = true;

@@ -14,7 +14,8 @@ namespace bodice::inline v0_1::capi {
 /// A few threads behind the callbacks of a host executor. A task allocates nothing.
 class ThreadPool {
  public:
-  /// Starts `threads` threads; at most `most_tasks` tasks are enqueued and not finished at a time.
+  /// Starts `threads` threads; at most `most_tasks` tasks are enqueued and not finished at a time. Throws
+  /// std::system_error where the system gives no more threads.
   ThreadPool(int threads, int most_tasks);
   /// Runs what is enqueued, and ends the threads.
   ~ThreadPool();
@@ -32,6 +33,7 @@ class ThreadPool {
   void* enqueue(void (*run)(void*), void* argument);
   void wait_for(Task& task);
   void work();
+  void end();
 
   std::mutex mutex_;
   std::condition_variable queued_, ended_;

@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <bodice/collision/strided_particles.hpp>
 
@@ -49,6 +52,9 @@ void query(const bodice_collider& collider, const capi::HostParticles& host,
   write_contacts(context, from, to);
 }
 
+/// Contacts of one point that need no memory from the heap.
+constexpr std::size_t kFewContacts = 256;
+
 /// The workspace of the host, or one for this call.
 bodice_workspace& workspace_for(const bodice_collider& collider, bodice_workspace* given,
                                 std::optional<bodice_workspace>& own) {
@@ -66,6 +72,19 @@ bodice_contact_report as_c(const collision::ContactReport& from, std::uint64_t p
   to.pinned = pinned;
   to.deepest_m = from.deepest_m;
   return to;
+}
+
+/// None of the settings may be NaN, which the engine would take for zero or for no limit.
+Outcome check_numbers(const bodice_resolve_options& options) {
+  const std::pair<const char*, float> members[] = {{"thickness_m", options.thickness_m},
+                                                   {"friction", options.friction},
+                                                   {"max_push_m", options.max_push_m},
+                                                   {"blend_m", options.blend_m}};
+  for (const auto& [name, value] : members)
+    if (std::isnan(value))
+      return invalid(std::string("bodice_resolve_options.") + name + " is not a number.",
+                     "Give what bodice_default_resolve_options() has, or another number.");
+  return {};
 }
 
 }  // namespace
@@ -128,10 +147,12 @@ bodice_status bodice_query_all(const bodice_collider* collider, const double poi
       return invalid("The array of contacts is null.", "Pass one, or a capacity of 0.");
     float local[3];
     BODICE_CHECK(local_point(*collider, point, local));
-    constexpr std::size_t kMost = 256;  // more ellipsoids never come near one point
-    collision::Contact near[kMost];
-    *found = collider->collider.query_all(local, within_m, {near, std::min(capacity, kMost)});
-    for (std::size_t i = 0; i < std::min({*found, capacity, kMost}); ++i)
+    capacity = std::min(capacity, collider->proxy.ellipsoids().size());
+    collision::Contact few[kFewContacts];  // a host's array need not have the alignment of the engine's
+    std::vector<collision::Contact> many(capacity > kFewContacts ? capacity : 0);
+    collision::Contact* const near = many.empty() ? few : many.data();
+    *found = collider->collider.query_all(local, within_m, {near, capacity});
+    for (std::size_t i = 0; i < std::min(*found, capacity); ++i)
       contacts[i] = capi::as_c(near[i], Origin(*collider).xyz);
     return {};
   });
@@ -145,6 +166,7 @@ bodice_status bodice_resolve(const bodice_collider* collider, const bodice_parti
     bodice_resolve_options options;
     BODICE_CHECK(capi::read(given, options, true));
     BODICE_CHECK(capi::write(capi::with_defaults<bodice_contact_report>(), report, true));
+    BODICE_CHECK(check_numbers(options));
     capi::HostParticles host;
     BODICE_CHECK(capi::read_particles(particles, host));
     std::optional<bodice_workspace> own;

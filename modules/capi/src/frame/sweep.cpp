@@ -21,24 +21,23 @@ constexpr float kTouch_m = 1e-4f;  ///< a particle this near to the thickness ha
 /// Share of the free distance that a particle advances. Relief changes a distance by a little more than the
 /// point moves; plain ellipsoids never do, but floats round.
 constexpr float kAdvance = 0.9f;
-constexpr int kMostSteps =
-    128;  ///< each one shortens the distance to the surface to a tenth; grazing paths take more
 
-/// Paths in the local frame. Particles that have arrived or passed stay in the batch, at rest.
+/// Paths in the local frame, and where particles are on them.
 struct Paths {
   float *from[3], *path[3], *at[3];
   float* fraction;
   std::size_t count;
+  std::uint32_t* moving;  ///< the particles that go on; at[.][k] is where the one in moving[k] is
 
-  void locate(std::size_t i) const {
-    for (int axis = 0; axis < 3; ++axis) at[axis][i] = from[axis][i] + fraction[i] * path[axis][i];
+  void locate(std::size_t i, std::size_t k) const {
+    for (int axis = 0; axis < 3; ++axis) at[axis][k] = from[axis][i] + fraction[i] * path[axis][i];
   }
   float length_m(std::size_t i) const { return std::hypot(path[0][i], path[1][i], path[2][i]); }
 };
 
 Paths make_paths(const capi::HostParticles& host, const double (&origin)[3], float* fraction, float* memory,
-                 std::size_t length) {
-  Paths paths{{}, {}, {}, fraction, host.count};
+                 std::uint32_t* moving, std::size_t length) {
+  Paths paths{{}, {}, {}, fraction, host.count, moving};
   for (int axis = 0; axis < 3; ++axis) {
     paths.from[axis] = memory + static_cast<std::size_t>(axis) * length;
     paths.path[axis] = memory + static_cast<std::size_t>(3 + axis) * length;
@@ -53,22 +52,29 @@ Paths make_paths(const capi::HostParticles& host, const double (&origin)[3], flo
       paths.path[axis][i] = static_cast<float>(end[axis] - start[axis]);
     }
     fraction[i] = 0.0f;
-    paths.locate(i);
+    moving[i] = static_cast<std::uint32_t>(i);
+    paths.locate(i, i);
   }
   return paths;
 }
 
-/// Advances the particles by what is free before them; returns how many are still moving.
-std::size_t advance(const Paths& paths, const collision::Contact* contacts, float thickness_m) {
+/// Advances the particles that move by what is free before them; returns how many go on. Each step is at
+/// least kAdvance * kTouch_m and the next float at least, so that the paths come to an end.
+std::size_t advance(const Paths& paths, std::size_t count, const collision::Contact* contacts,
+                    float thickness_m) {
   std::size_t moving = 0;
-  for (std::size_t i = 0; i < paths.count; ++i) {
-    const float free_m = contacts[i].signed_distance - thickness_m, length_m = paths.length_m(i);
-    if (paths.fraction[i] >= 1.0f || free_m <= kTouch_m) continue;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t i = paths.moving[k];
+    const float free_m = contacts[k].signed_distance - thickness_m, length_m = paths.length_m(i);
+    if (free_m <= kTouch_m) continue;
+    const float before = paths.fraction[i];
     const float step = std::isfinite(free_m) ? kAdvance * free_m / length_m : 1.0f;
+    const bool has_length = std::isfinite(length_m) && length_m > 0.0f;
     paths.fraction[i] =
-        std::isfinite(length_m) && length_m > 0.0f ? std::min(1.0f, paths.fraction[i] + step) : 1.0f;
-    paths.locate(i);
-    ++moving;
+        has_length ? std::min(1.0f, std::max(before + step, std::nextafter(before, 1.0f))) : 1.0f;
+    if (paths.fraction[i] >= 1.0f) continue;
+    paths.moving[moving] = i;
+    paths.locate(i, moving++);
   }
   return moving;
 }
@@ -95,15 +101,21 @@ bodice_status bodice_sweep(const bodice_collider* collider, const bodice_particl
     double origin[3];
     for (int axis = 0; axis < 3; ++axis) origin[axis] = collider->collider.origin()[axis];
     const std::size_t length = (host.count + 15) / 16 * 16;
-    const Paths paths = make_paths(host, origin, fraction, memory.numbers.reserve(9 * length), length);
+    const Paths paths = make_paths(host, origin, fraction, memory.numbers.reserve(9 * length),
+                                   memory.element.reserve(host.count), length);
     collision::Contact* found = memory.contacts.reserve(host.count);
     const engine::Context context = collider->context->engine_context();
-    const collision::Particles at{.count = host.count, .x = paths.at[0], .y = paths.at[1], .z = paths.at[2]};
-    for (int step = 0; step < kMostSteps; ++step) {
-      collider->collider.query(context, at, {found, host.count}, memory.engine);
-      if (advance(paths, found, thickness_m) == 0) break;
+    const auto query = [&](std::size_t count) {
+      collider->collider.query(context,
+                               {.count = count, .x = paths.at[0], .y = paths.at[1], .z = paths.at[2]},
+                               {found, count}, memory.engine);
+    };
+    for (std::size_t moving = host.count; moving > 0;) {
+      query(moving);
+      moving = advance(paths, moving, found, thickness_m);
     }
-    collider->collider.query(context, at, {found, host.count}, memory.engine);
+    for (std::size_t i = 0; i < host.count; ++i) paths.locate(i, i);
+    query(host.count);
     capi::EngineContacts from{found, host.count, {0.0, 0.0, 0.0}, &collider->proxy};
     if (!host.is_local) std::copy_n(origin, 3, from.origin);
     if (contacts) write_contacts(context, from, to);

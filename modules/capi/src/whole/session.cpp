@@ -1,5 +1,6 @@
 // Sessions of the C interface.
 #include <cmath>
+#include <utility>
 
 #include <bodice/tryon/session.hpp>
 
@@ -97,10 +98,13 @@ bodice_status bodice_session_poll(bodice_session* session, int32_t* state) {
     BODICE_CHECK(capi::check_handle(session, "The session"));
     if (!state) return invalid("The pointer to the state is null.", "Pass one.");
     *state = BODICE_IDLE;
-    if (session->motion.done()) BODICE_CHECK(Outcome(session->motion.wait()));
-    if (!session->submitted) return {};
-    *state = session->body.done() ? BODICE_READY : BODICE_WORKING;
-    return session->body.done() ? Outcome(session->body.wait()) : Outcome();
+    if (session->submitted) *state = session->body.done() ? BODICE_READY : BODICE_WORKING;
+    if (session->motion.done()) {
+      // A clip that is not found is reported once. A search is canceled where the next body needs its own.
+      const auto found = std::exchange(session->motion, {}).wait();
+      if (!found && found.error().code != engine::ErrorCode::kCanceled) return found.error();
+    }
+    return session->submitted && session->body.done() ? Outcome(session->body.wait()) : Outcome();
   });
 }
 

@@ -1,5 +1,6 @@
 // Skins and proxies made beside the frames.
 #include <atomic>
+#include <cstdio>
 #include <thread>
 
 #include "base/handles.hpp"
@@ -28,7 +29,7 @@ struct bodice_ticket {
       BODICE_CHECK(capi::make_skin(progress.context(), progress, std::move(body), skin));
       return capi::make_fit(progress, skin, options, bind, fitted);
     });
-    if (status != BODICE_OK) sentence = bodice_last_error();
+    if (status != BODICE_OK) std::snprintf(sentence, sizeof sentence, "%s", bodice_last_error());
     done = true;
   }
 
@@ -37,7 +38,7 @@ struct bodice_ticket {
   tryon::SegmentedSkin skin;
   capi::Fitted fitted;
   bodice_status status = BODICE_OK;
-  std::string sentence;
+  char sentence[1024] = {};  // a string might find no memory, like the work before it
   std::atomic<bool> done{false};
   bool taken = false;
   std::thread thread;
@@ -93,8 +94,11 @@ bodice_status bodice_ticket_take(bodice_ticket* ticket, bodice_skin** skin, bodi
     if (ticket->taken) return invalid("The results of this ticket were taken.", "Begin another fit.");
     ticket->wait();
     if (ticket->status != BODICE_OK) return {ticket->status, ticket->sentence};
-    auto made_proxy = std::make_unique<bodice_proxy>(ticket->context, std::move(*ticket->fitted.proxy));
-    if (skin) *skin = new bodice_skin(ticket->context, std::move(ticket->skin));
+    // The ticket keeps its results until both handles are made, so that a call without memory can be
+    // repeated.
+    auto made_proxy = std::make_unique<bodice_proxy>(ticket->context, *ticket->fitted.proxy);
+    auto made_skin = skin ? std::make_unique<bodice_skin>(ticket->context, ticket->skin) : nullptr;
+    if (skin) *skin = made_skin.release();
     *proxy = made_proxy.release();
     ticket->taken = true;
     return capi::write(ticket->fitted.report, report, true);

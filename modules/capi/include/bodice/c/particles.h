@@ -66,7 +66,8 @@ BODICE_STABLE void bodice_workspace_destroy(bodice_workspace* workspace);
 /** Value of bodice_contact.ellipsoid where there is no contact; the distance is then +infinity. */
 #define BODICE_NO_ELLIPSOID 0xffffffffu
 
-/** The closest point of the body's surface to a particle. */
+/** The closest point of the body's surface to a particle. With relief the point is where the normal and the
+ * distance lead: on the surface to a millimeter within 30 mm of it, some centimeters off it at 300 mm. */
 typedef struct bodice_contact {
   float distance;     /**< meters, negative inside */
   float point[3];     /**< in the coordinates of the particles */
@@ -118,7 +119,8 @@ BODICE_STABLE bodice_status bodice_query(const bodice_collider* collider, const 
 BODICE_STABLE bodice_status bodice_query_point(const bodice_collider* collider, const double point[3],
                                                bodice_contact* contact);
 /** All ellipsoids within a distance of a point in the world, nearest first, each with its own surface. *found
- * is their number; at most `capacity` are written. Const use. Allocates nothing. Cost: some microseconds. */
+ * is their number; at most `capacity` are written. Const use. Allocates nothing for a capacity of at most
+ * 256. Cost: some microseconds. */
 BODICE_STABLE bodice_status bodice_query_all(const bodice_collider* collider, const double point[3],
                                              float within_m, bodice_contact* contacts, size_t capacity,
                                              size_t* found);
@@ -144,13 +146,13 @@ BODICE_INLINE bodice_resolve_options bodice_default_resolve_options(void) {
 typedef struct bodice_contact_report {
   bodice_head head;
   uint64_t contacts;
-  uint64_t contacts_by_part[BODICE_PARTS];
-  uint64_t unresolved; /**< still inside; zero unless `paper` */
-  uint64_t pending;    /**< held back by max_push_m */
-  uint64_t pinched;    /**< in a fold with less room than the thickness */
-  uint64_t not_finite; /**< not moved */
-  uint64_t pinned;     /**< left alone because of mask or mass */
-  float deepest_m;     /**< before the response */
+  uint64_t contacts_by_part[BODICE_PARTS]; /**< those of a person; parts of things are not counted apart */
+  uint64_t unresolved;                     /**< still inside; zero unless `paper` */
+  uint64_t pending;                        /**< held back by max_push_m */
+  uint64_t pinched;                        /**< in a fold with less room than the thickness */
+  uint64_t not_finite;                     /**< not moved */
+  uint64_t pinned;                         /**< left alone because of mask or mass */
+  float deepest_m;                         /**< before the response */
   int32_t reserved;
 } bodice_contact_report;
 
@@ -163,8 +165,8 @@ BODICE_INLINE bodice_contact_report bodice_default_contact_report(void) {
 /** Moves each particle out that is inside or nearer than the thickness, and corrects its velocity; all other
  * values keep their bits. With `safe`, particles stay on the side of the body that they came from. `options`,
  * `workspace` and `report` may be null. If an element stands in the index twice, the call takes one thread,
- * and moves that element once or twice. Fails as bodice_query(). Const use of the collider. Allocates nothing
- * once warm. Cost: that of a query. */
+ * and moves that element once or twice. Fails as bodice_query(), and for a setting that is not a number.
+ * Const use of the collider. Allocates nothing once warm. Cost: that of a query. */
 BODICE_STABLE bodice_status bodice_resolve(const bodice_collider* collider, const bodice_particles* particles,
                                            const bodice_resolve_options* options, bodice_workspace* workspace,
                                            bodice_contact_report* report);
@@ -173,7 +175,8 @@ BODICE_STABLE bodice_status bodice_resolve(const bodice_collider* collider, cons
  * `thickness_m` of the surface. fraction[i] (#count floats) is the part of the path until then, 1 if it never
  * does; contacts, if not null, are those at that point. Without relief no hit is missed that is deeper than
  * 0.1 mm; relief may hide features thinner than a millimeter. Particles that start within are at 0. Nothing
- * is moved. Fails and may overlap as bodice_query(). Cost: a few queries of the particles that come near. */
+ * is moved. Fails and may overlap as bodice_query(). Cost: a few queries of the particles that come near; a
+ * path that grazes the surface at less than a millimeter takes one for every few tenths of a millimeter. */
 BODICE_EXPERIMENTAL bodice_status bodice_sweep(const bodice_collider* collider,
                                                const bodice_particles* particles, float thickness_m,
                                                bodice_workspace* workspace, float* fraction,

@@ -53,14 +53,16 @@ BODICE_EXPERIMENTAL bodice_status bodice_session_create(const bodice_context* co
 BODICE_EXPERIMENTAL void bodice_session_destroy(bodice_session* session);
 
 /** Prepares a body beside the frames, first coarse, then finer; each proxy takes effect between two steps.
- * Work on an earlier body is canceled. Coordinates are meters with y up. Fails for a mesh that cannot be. */
+ * Work on an earlier body is canceled. Coordinates are meters with y up. Fails for a mesh that cannot be.
+ * Cost: the mesh is copied and repaired in this call, some 10 ms for 10,000 vertices. */
 BODICE_EXPERIMENTAL bodice_status bodice_session_submit(bodice_session* session, const bodice_mesh* body);
 /** The same for a body file, which is read beside the frames. */
 BODICE_EXPERIMENTAL bodice_status bodice_session_submit_file(bodice_session* session, const char* path);
 
 /** States of the preparation that was submitted last. */
 enum { BODICE_IDLE = 0, BODICE_WORKING = 1, BODICE_READY = 2 };
-/** Sets *state; if the preparation has failed, returns its status and sentence. No cost. */
+/** Sets *state; if the preparation has failed, returns its status and sentence. A clip of
+ * bodice_session_play() that was not found is reported once. No cost. */
 BODICE_EXPERIMENTAL bodice_status bodice_session_poll(bodice_session* session, int32_t* state);
 
 /** Replaces the garments by the `count` ones of an array, between two steps. Fails with
