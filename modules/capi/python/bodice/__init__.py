@@ -21,13 +21,13 @@ import os
 from typing import Union
 
 from . import _library as _c
-from ._body import Body, Contacts, Error, Exact
+from ._body import Body, Canceled, Contacts, Error, Exact, OutOfMemory
 from ._rig import Rig
 from ._session import Session
 from ._skin import FittedBody, Garment, Progress, Skin, built_in, fit, load_skin
 from ._ticket import Ticket, begin_fit
 
-__all__ = ["Body", "Contacts", "Error", "Exact", "FittedBody", "Garment", "Progress", "Rig", "Session", "Skin", "Ticket",
+__all__ = ["Body", "Canceled", "Contacts", "Error", "Exact", "FittedBody", "Garment", "OutOfMemory", "Progress", "Rig", "Session", "Skin", "Ticket",
            "begin_fit", "build", "built_in", "fit", "load", "load_skin", "loads"]
 
 

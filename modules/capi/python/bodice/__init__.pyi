@@ -11,7 +11,11 @@ _Shape = Literal["person", "any"]
 _Path = str | os.PathLike[str]
 Progress = Callable[[str], object]
 
-class Error(ValueError): ...
+class Error(ValueError):
+    status: int
+
+class Canceled(Error): ...
+class OutOfMemory(Error, MemoryError): ...
 
 class Contacts:
     distance: NDArray[np.floating[Any]]
@@ -144,5 +148,5 @@ def begin_fit(vertices: ArrayLike, faces: ArrayLike, tier: _Tier | None = None, 
               find_rig: bool = False, shape: _Shape = "person", workers: int = 0,
               progress: Progress | None = None) -> Ticket: ...
 
-__all__ = ["Body", "Contacts", "Error", "Exact", "FittedBody", "Garment", "Progress", "Rig", "Session", "Skin", "Ticket",
+__all__ = ["Body", "Canceled", "Contacts", "Error", "Exact", "FittedBody", "Garment", "OutOfMemory", "Progress", "Rig", "Session", "Skin", "Ticket",
            "begin_fit", "build", "built_in", "fit", "load", "load_skin", "loads"]

@@ -14,7 +14,7 @@ from . import _library as _c
 if TYPE_CHECKING:
     from ._skin import Skin
 
-Error = _c.Error
+Canceled, Error, OutOfMemory = _c.Canceled, _c.Error, _c.OutOfMemory
 
 
 @dataclasses.dataclass

@@ -15,7 +15,21 @@ from ._structures import ABI, ContextOptions, Garment, Mesh, Particles, Pose, Sc
 
 
 class Error(ValueError):
-    """What bodice refuses, in one sentence with its remedy."""
+    """What bodice refuses, in one sentence with its remedy. `status` is that of bodice.h."""
+
+    status = 1  # BODICE_INVALID_ARGUMENT: found here, before the library was called
+
+
+class Canceled(Error):
+    """A progress callback or a ticket stopped the work."""
+
+    status = 5
+
+
+class OutOfMemory(Error, MemoryError):
+    """An allocation failed; what was there before is as it was."""
+
+    status = 8
 
 
 def _open() -> ctypes.CDLL:
@@ -136,7 +150,10 @@ except AttributeError as error:  # the loader's own text names the function that
 def check(status: int) -> None:
     """Raises the sentence of a call that failed."""
     if status != 0:
-        raise Error(library.bodice_last_error().decode())
+        kind = {Canceled.status: Canceled, OutOfMemory.status: OutOfMemory}.get(status, Error)
+        error = kind(library.bodice_last_error().decode())
+        error.status = status
+        raise error
 
 
 class Handle:
@@ -258,6 +275,7 @@ def mesh(points: np.ndarray, faces):
     faces = np.asarray(faces)
     if faces.ndim != 2 or faces.shape[1] != 3 or faces.dtype.kind not in "iu" or (faces.size and faces.min() < 0):
         raise Error(f"The faces are {faces.dtype} of shape {faces.shape}. Pass (m, 3) integers, zero or more.")
+    faces = faces.astype(faces.dtype.newbyteorder("="), copy=False)
     faces = np.ascontiguousarray(faces if faces.itemsize in (2, 4, 8) else faces.astype(np.uint32))
     value = defaults(Mesh)
     if len(points):

@@ -5,6 +5,8 @@ from __future__ import annotations
 import ctypes
 import dataclasses
 import os
+import signal
+import threading
 from typing import Callable, Dict, List, Optional, Tuple, Union
 
 import numpy as np
@@ -26,17 +28,30 @@ class Hook:
     def __init__(self, options, progress: Optional[Progress]):
         self._progress = progress
         self._raised: Optional[BaseException] = None
+        # An interrupt that Python raised before _call has reached its try would be lost: it is noted in place of that.
+        self._interrupted = False
+        self._previous = None
+        if (threading.current_thread() is threading.main_thread()
+                and signal.getsignal(signal.SIGINT) is signal.default_int_handler):
+            self._previous = signal.signal(signal.SIGINT, self._interrupt)
         self._function = _c.PROGRESS(self._call)
         options.progress = ctypes.cast(self._function, ctypes.c_void_p)
 
+    def _interrupt(self, number, frame) -> None:
+        self._interrupted = True
+
     def _call(self, host, stage: bytes) -> int:
         try:
-            return int(bool(self._progress and self._progress(stage.decode())))
+            return int(self._interrupted or bool(self._progress and self._progress(stage.decode())))
         except BaseException as raised:  # it must not cross the library
             self._raised = raised
             return 1
 
     def check(self, status: int) -> None:
+        if self._previous is not None:
+            signal.signal(signal.SIGINT, self._previous)
+        if self._interrupted:
+            raise KeyboardInterrupt
         if self._raised is not None:
             raise self._raised
         _c.check(status)
