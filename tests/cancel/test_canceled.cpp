@@ -12,7 +12,9 @@
 #include <bodice/geometry/mesh_repair.hpp>
 #include <bodice/io/import.hpp>
 #include <bodice/io/obj.hpp>
+#include <bodice/io/rig.hpp>
 #include <bodice/proxy/proxy_surface.hpp>
+#include <bodice/rigging/make_rig.hpp>
 #include <bodice/synth/body.hpp>
 #include <bodice/synth/garment.hpp>
 #include <bodice/tryon/drape.hpp>
@@ -63,8 +65,20 @@ struct Subjects {
                                                {.tier = proxy::Tier::kPaper});
   geometry::TriMesh patch{{{-0.1, 1.2, 0.3}, {0.1, 1.2, 0.3}, {0.0, 1.3, 0.3}}, {{0, 1, 2}}};
   bodice_test::TempFolder folder;
-  std::filesystem::path file = folder / "body.obj";
+  std::filesystem::path file = folder / "body.obj", open_file = folder / "open.obj";
 };
+
+/// A skin without some triangles, and a part of it as a second piece beside it.
+geometry::TriMesh opened(const geometry::TriMesh& whole) {
+  geometry::TriMesh mesh = whole;
+  mesh.triangles.erase(mesh.triangles.begin(), mesh.triangles.begin() + 40);
+  const auto first = static_cast<geometry::Index>(mesh.positions.size());
+  for (const geometry::Vec3& p : whole.positions) mesh.positions.push_back(p + geometry::Vec3(1.5, 0.0, 0.0));
+  for (std::size_t t = 0; t < whole.triangles.size() / 8; ++t)
+    mesh.triangles.push_back(
+        {whole.triangles[t][0] + first, whole.triangles[t][1] + first, whole.triangles[t][2] + first});
+  return mesh;
+}
 
 /// The number of checkpoints that the call reached; it is canceled at each of them in turn.
 int cancel_everywhere(const std::string& name, const Call& call) {
@@ -88,6 +102,7 @@ int cancel_everywhere(const std::string& name, const Call& call) {
 TEST_CASE("canceled work is kCanceled from every public function, wherever it is cut") {
   const Subjects of;
   REQUIRE(io::write_obj(of.body.mesh, of.file).ok());
+  REQUIRE(io::write_obj(opened(of.body.mesh), of.open_file).ok());
   const struct {
     const char* name;
     Call call;
@@ -128,6 +143,13 @@ TEST_CASE("canceled work is kCanceled from every public function, wherever it is
          return outcome(tryon::drape(c, of.worn, {{.name = "patch", .mesh = of.patch}}, {.frames = 2}));
        }},
       {"import_body", [&](const Context& c) { return outcome(io::import_body(c, of.file)); }},
+      {"import_body, an open skin in two pieces",
+       [&](const Context& c) { return outcome(io::import_body(c, of.open_file)); }},
+      {"import_rigged_body", [&](const Context& c) { return outcome(io::import_rigged_body(c, of.file)); }},
+      {"make_rig",
+       [&](const Context& c) {
+         return outcome(rigging::make_rig(c, of.worn.skin.input.skin, of.worn.skin.anatomy));
+       }},
       {"import_garment", [&](const Context& c) { return outcome(io::import_garment(c, of.file, {})); }},
   };
   for (const auto& row : rows) {

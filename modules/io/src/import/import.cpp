@@ -77,8 +77,8 @@ struct ReadBody {
   FileWeights weights;  // of the input vertices
 };
 
-engine::Result<ReadBody> read_body(const engine::Context& context, const std::filesystem::path& file,
-                                   const ImportOptions& options) {
+engine::Result<ReadBody> read_body_now(const engine::Context& context, const std::filesystem::path& file,
+                                       const ImportOptions& options) {
   ReadBody read;
   ImportedMesh& out = read.mesh;
   out.file = file;
@@ -133,6 +133,11 @@ engine::Result<ReadBody> read_body(const engine::Context& context, const std::fi
   read.rig = std::move(scene->rig);
   read.weights = std::move(chosen->weights);
   return read;
+}
+
+engine::Result<ReadBody> read_body(const engine::Context& context, const std::filesystem::path& file,
+                                   const ImportOptions& options) {
+  return engine::catch_canceled("The import", [&] { return read_body_now(context, file, options); });
 }
 
 }  // namespace

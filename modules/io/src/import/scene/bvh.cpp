@@ -97,6 +97,7 @@ class BvhReader {
       if (auto read = read_tree(); !read) return read.error();
     if (rig_.nodes.empty()) return wrong("ROOT");
     if (word != "MOTION") return wrong("MOTION");
+    if (table_.empty()) return wrong("a joint with channels before it");
     if (auto read = read_motion(); !read) return read.error();
     return std::move(rig_);
   }
@@ -164,7 +165,7 @@ class BvhReader {
       if (!channel) return wrong("channels such as Xposition or Zrotation");
       channels.channels.push_back(*channel);
     }
-    table_.push_back(std::move(channels));
+    if (!channels.channels.empty()) table_.push_back(std::move(channels));
     return {};
   }
 
