@@ -26,9 +26,10 @@ struct InTunic {
     REQUIRE(garment.ok());
     tunic = std::move(garment->mesh);
   }
-  engine::Result<std::optional<engine::Warning>> put_on(geometry::TriMesh& garment) const {
-    return tryon::place_garment({}, {*skin.distance, skin.input.skin, skin.anatomy.stature_m}, "tunic",
-                                garment);
+  engine::Result<std::optional<engine::Warning>> put_on(geometry::TriMesh& garment,
+                                                        double meters_per_unit = 1.0) const {
+    return tryon::place_garment(
+        {}, {*skin.distance, skin.input.skin, skin.anatomy.stature_m, meters_per_unit}, "tunic", garment);
   }
   geometry::TriMesh changed(const std::function<Vec3(const Vec3&)>& by) const {
     geometry::TriMesh mesh = tunic;
@@ -72,6 +73,39 @@ TEST_CASE("placement: another unit or another axis up is found, and the warning 
     CHECK((*placed)->code == "garment-placed");
     CHECK_MESSAGE((*placed)->message.find(c.word) != std::string::npos, (*placed)->message);
     CHECK(dressed.farthest_m(mesh) < 1e-9);
+  }
+}
+
+TEST_CASE("placement: a garment in another unit than a body in millimeters or centimeters is found") {
+  const InTunic dressed;
+  struct Case {
+    double body_unit_m, garment_unit_m;
+    const char* word;
+  };
+  for (const Case& c : {Case{1e-3, 1e-2, "in centimeters"}, Case{1e-3, 1.0, "in meters"},
+                        Case{1e-2, 1.0, "in meters"}, Case{1e-2, 1e-3, "in millimeters"}}) {
+    geometry::TriMesh mesh =
+        dressed.changed([&](const Vec3& p) { return Vec3(p * c.body_unit_m / c.garment_unit_m); });
+    const auto placed = dressed.put_on(mesh, c.body_unit_m);
+    REQUIRE_MESSAGE(placed.ok(), placed.error().sentence());
+    REQUIRE_MESSAGE(placed->has_value(), c.word);
+    CHECK_MESSAGE((*placed)->message.find(c.word) != std::string::npos, (*placed)->message);
+    CHECK(dressed.farthest_m(mesh) < 1e-9);
+  }
+}
+
+TEST_CASE("placement: a skirt in front of its body is moved back, and not up") {
+  const InTunic dressed;
+  auto skirt = tryon::make_garment({}, dressed.skin, {.kind = synth::GarmentKind::kSkirt});
+  REQUIRE(skirt.ok());
+  geometry::TriMesh mesh = skirt->mesh;
+  for (Vec3& p : mesh.positions) p.z() += 0.12;
+  const auto placed = dressed.put_on(mesh);
+  REQUIRE_MESSAGE(placed.ok(), placed.error().sentence());
+  REQUIRE(placed->has_value());
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    REQUIRE(mesh.positions[v].y() == skirt->mesh.positions[v].y());
+    REQUIRE((mesh.positions[v] - skirt->mesh.positions[v]).norm() < 0.03);
   }
 }
 

@@ -107,6 +107,24 @@ engine::Result<void> give_rig(const engine::Context& context, const BodySource& 
   return {};
 }
 
+namespace {
+
+/// Whether the text is a name rather than a path: no folder, no extension.
+bool is_bare_word(std::string_view text) {
+  return text.find_first_of("/\\.") == std::string_view::npos;
+}
+
+engine::Error no_motion(std::string_view name) {
+  std::string names;
+  for (const std::string_view motion : rigging::kMotionNames)
+    names += (names.empty() ? "" : ", ") + std::string(motion);
+  return {engine::ErrorCode::kNotFound,
+          engine::message("There is neither a motion '", name, "' nor a file of that name."),
+          "Made here are " + names + "; else name a GLB, FBX, DAE or BVH file."};
+}
+
+}  // namespace
+
 engine::Result<rig::Clip> choose_clip(const MotionChoice& choice, const std::vector<rig::Clip>& clips) {
   if (choice.clip.empty() && !clips.empty()) return clips.front();
   std::string names;
@@ -119,11 +137,27 @@ engine::Result<rig::Clip> choose_clip(const MotionChoice& choice, const std::vec
                        clips.empty() ? "The file has no clips." : "Its clips are " + names + "."};
 }
 
+engine::Result<void> check_time(const rig::Clip& clip, double time_s) {
+  constexpr double kRounding = 1e-6;
+  if (time_s >= 0.0 && time_s <= clip.duration_s * (1.0 + kRounding)) return {};
+  return engine::Error{engine::ErrorCode::kInvalidArgument,
+                       engine::message("The clip '", clip.name, "' takes ", clip.duration_s,
+                                       " s: it has no pose at ", time_s, " s."),
+                       engine::message("Give seconds from 0 to ", clip.duration_s, ".")};
+}
+
 engine::Result<BodyMotion> find_motion(const engine::Context& context, const SegmentedSkin& skin,
                                        const MotionChoice& choice, std::vector<engine::Warning>& warnings) {
-  if (const auto motion = rigging::motion_from_name(choice.motion))
-    return made_motion(context, skin, *motion, warnings);
+  if (const auto motion = rigging::motion_from_name(choice.motion)) {
+    if (choice.clip.empty() || choice.clip == choice.motion)
+      return made_motion(context, skin, *motion, warnings);
+    return engine::Error{
+        engine::ErrorCode::kInvalidArgument,
+        engine::message("The motion '", choice.motion, "' is made here and has no clip '", choice.clip, "'."),
+        "Leave the clip out, or name a file that has it."};
+  }
   auto read = io::import_motion(context, choice.motion);
+  if (!read && is_bare_word(choice.motion)) return no_motion(choice.motion);
   if (!read) return std::move(read).error();
   append(warnings, read->warnings);
   auto clip = choose_clip(choice, read->clips);

@@ -36,6 +36,8 @@ constexpr double kLeastSize = 0.03, kSock = 0.1, kMostSize = 4.0;
 constexpr double kMayFall = 0.25;
 constexpr double kLongestShift = 0.34;
 constexpr int kShiftSteps = 20;
+// A garment with samples nearer to the skin than this in the median, in statures, is worn in its unit.
+constexpr double kClose = 0.02;
 constexpr double kMostOff = 0.02;  // how far off the skin a shifted garment lies at most, in statures
 
 struct Unit {
@@ -110,10 +112,18 @@ class Fitting {
            (sum.norm() > kOneSided * length && length > kBeside * body_.stature_m * count);
   }
   double nearest_m(const Candidate& c) const { return std::ranges::min(distances(c)); }
+  /// The median distance of the samples from the skin, in statures.
+  double median_off(const Candidate& c) const {
+    std::vector<double> off = distances(c);
+    for (double& d : off) d = std::abs(d);
+    return in_statures(median(std::move(off)));
+  }
+  /// Meters that a unit of the garment's file has, if the file is in `unit_m`, for each that was taken.
+  double scale_of(double unit_m) const { return unit_m / body_.meters_per_unit; }
 
-  /// Moves the candidate to where its samples lie evenly off the skin, by the mean of what each
-  /// would have to move, step by step.
-  void shift(Candidate& c) const {
+  /// Moves the candidate along the axes that `free` has 1 for, to where its samples lie evenly off the skin,
+  /// by the mean of what each would have to move, step by step.
+  void shift(Candidate& c, const Vec3& free) const {
     for (int step = 0; step < kShiftSteps; ++step) {
       std::vector<Vec3> by(samples_.size(), Vec3::Zero());
       const double off_m = std::clamp(median(distances(c)), 0.0, kMostOff * body_.stature_m);
@@ -127,7 +137,7 @@ class Fitting {
       });
       Vec3 mean = Vec3::Zero();
       for (const Vec3& b : by) mean += b / static_cast<double>(by.size());
-      c.shift += 1.5 * mean;  // closest points slide along, so that a mean falls short
+      c.shift += 1.5 * mean.cwiseProduct(free);  // closest points slide along, so that a mean falls short
     }
   }
 
@@ -151,13 +161,17 @@ class Fitting {
   geometry::Box box_;
 };
 
+bool is_same(double a, double b) {
+  return std::abs(a - b) < 1e-9 * b;
+}
+
 /// All units and axes in which the garment has a garment's size, the most likely first.
 std::vector<Candidate> candidates(const Fitting& fitting) {
   std::vector<Candidate> all;
   for (const Unit& from : kUnits)
     for (const Turn& turn : turns()) {
-      Candidate c{.scale = from.meters, .turn = turn.matrix};
-      c.name = from.meters == 1.0 ? "" : std::string("in ") + from.name;
+      Candidate c{.scale = fitting.scale_of(from.meters), .turn = turn.matrix};
+      c.name = is_same(c.scale, 1.0) ? "" : std::string("in ") + from.name;
       if (*turn.name) c.name += (c.name.empty() ? "" : ", ") + std::string(turn.name);
       if (!fitting.has_size(c.scale, kSock)) continue;
       c.on_body = fitting.is_beside(c) ? 0.0 : fitting.on_body(c);
@@ -182,22 +196,33 @@ engine::Result<std::optional<engine::Warning>> place_garment(const engine::Conte
   if (fitting.empty()) return nothing;
   const Candidate as_is;
   const double nearest_m = fitting.nearest_m(as_is);
-  const bool is_worn = fitting.has_size(1.0, kLeastSize) && fitting.on_body(as_is) >= kWorn;
-  if (is_worn && !fitting.is_beside(as_is)) return nothing;
-
+  bool is_worn = fitting.has_size(1.0, kLeastSize) && fitting.on_body(as_is) >= kWorn;
   std::vector<Candidate> all;
-  if (!is_worn) all = candidates(fitting);
+  if (is_worn && !fitting.is_beside(as_is)) {
+    if (fitting.median_off(as_is) < kClose) return nothing;
+    // In too small a unit a garment shrinks to where it stands between the calves. A larger one may wear it.
+    all = candidates(fitting);
+    if (all.empty() || all.front().on_body < kFound || all.front().scale <= 1.0) return nothing;
+    is_worn = false;
+  } else if (!is_worn) {
+    all = candidates(fitting);
+  }
   const bool found = !all.empty() && all.front().on_body >= kFound;
   const bool clear = found && (all.size() < 2 || all[1].on_body < kRival || all[1].scale < all[0].scale);
   std::optional<Candidate> taken;
   if (clear) taken = all.front();
   if (!found && fitting.has_size(1.0, kLeastSize)) {
-    Candidate moved;
-    fitting.shift(moved);
-    moved.on_body = fitting.on_body(moved);
-    if (moved.on_body >= kFound && !fitting.is_beside(moved) &&
-        fitting.in_statures(moved.shift.norm()) < kLongestShift)
+    // Garments are mostly made at their height, and a skirt would slide up along the cone that it is.
+    for (const Vec3& free : {Vec3(1.0, 0.0, 1.0), Vec3(1.0, 1.0, 1.0)}) {
+      Candidate moved;
+      fitting.shift(moved, free);
+      moved.on_body = fitting.on_body(moved);
+      if (moved.on_body < kFound || fitting.is_beside(moved) ||
+          fitting.in_statures(moved.shift.norm()) >= kLongestShift)
+        continue;
       taken = std::move(moved);
+      break;
+    }
   }
   if (!taken) {
     if (fitting.has_size(1.0, kLeastSize) && fitting.in_statures(nearest_m) < kMayFall) return nothing;

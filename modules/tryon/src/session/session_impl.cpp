@@ -75,9 +75,10 @@ engine::Ticket Session::Impl::find_wanted_clip() {
 }
 
 void Session::Impl::begin_shape() {
-  if (wanted_shape.empty() || !body || shapes_done < shapes_begun) return;
+  const bool waits = shapes_done < shapes_begun && !(reshape.done() && !reshape.wait());
+  if (wanted_shape.empty() || !body || waits) return;
   const SessionMotion* const plays = motion && motion->skin == body->live.skin ? motion.get() : nullptr;
-  shapes.submit(
+  reshape = shapes.submit(
       "reshape",
       [from = body, plays = plays ? motion : nullptr, number = ++shapes_begun, worn = worn(),
        shape = std::exchange(wanted_shape, {})](const engine::Context& context,
@@ -85,6 +86,7 @@ void Session::Impl::begin_shape() {
         auto reshaped = make_reshaped(context, *from, plays.get(), worn, shape);
         if (!reshaped && reshaped.error().code == engine::ErrorCode::kCanceled)
           return std::move(reshaped).error();
+        if (!reshaped) context.warn(reshaped.error().sentence());
         sink.publish(
             std::make_shared<const SessionShape>(SessionShape{number, reshaped ? *reshaped : nullptr}));
         return {};

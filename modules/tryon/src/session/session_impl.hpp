@@ -50,6 +50,7 @@ struct Session::Impl {
   bool new_shape = false;  // since the last pose, the body has become another shape of itself
   std::vector<geometry::Vec3> wanted_shape;  // empty: none waits
   std::uint64_t shapes_begun = 0, shapes_done = 0;
+  engine::Ticket reshape;  ///< the last one; after a failure nothing of it is published
 
   HeldVertices held_now;               // found in a frame: a body that wore something else when it was made
   const HeldVertices* held = nullptr;  // null: to be found in the next frame

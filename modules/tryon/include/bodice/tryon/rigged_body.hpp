@@ -30,6 +30,8 @@ struct MotionChoice {
 /// The clip of a file that is named, or its first for an empty name. Fails with kInvalidArgument where there
 /// is none, and lists the names there are.
 engine::Result<rig::Clip> choose_clip(const MotionChoice& choice, const std::vector<rig::Clip>& clips);
+/// Fails with kInvalidArgument where the clip has no pose at that second, and states its duration.
+engine::Result<void> check_time(const rig::Clip& clip, double time_s);
 
 /// Finds the clip and carries it over to the skin's skeleton where it is of another one; `warnings` gets what
 /// did not fit. Precondition: the skin has a rig. Fails with kInvalidArgument where a clip is not there (the
