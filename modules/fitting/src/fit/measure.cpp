@@ -39,16 +39,46 @@ std::vector<GapProbe> gap_probes(const proxy::BodyProxy::Data& proxy) {
   return probes;
 }
 
-/// Moves a probe onto F = 0 along the gradient; false if it does not settle or another ellipsoid owns it.
+/// Finds the outermost F = 0 on the ellipsoid's own normal through the probe; false if there is none, or if
+/// another ellipsoid owns it.
+bool find_on_normal(const proxy::BodyProxy::Data& proxy, GapProbe& probe, double reach_m) {
+  constexpr int kSteps = 48, kHalvings = 24;
+  const geometry::Ellipsoid& shape = proxy.ellipsoids[probe.ellipsoid].shape;
+  const Vec3 start = probe.at.point, normal = geometry::closest_point(shape, start).normal;
+  const auto at = [&](double t) { return proxy::proxy_distance(proxy, start + t * normal); };
+  double outside = reach_m;
+  for (int step = 1; step <= kSteps; ++step) {
+    const double inside = reach_m * (1.0 - 2.0 * step / kSteps);
+    if (at(inside).distance > 0.0) {
+      outside = inside;
+      continue;
+    }
+    double low = inside, high = outside;
+    for (int halving = 0; halving < kHalvings; ++halving) {
+      const double middle = 0.5 * (low + high);
+      (at(middle).distance > 0.0 ? high : low) = middle;
+    }
+    probe.at.point = start + high * normal;
+    return at(high).owner == probe.ellipsoid;
+  }
+  return false;
+}
+
+/// Moves a probe onto F = 0 along the gradient; false if another ellipsoid owns it there. Steep tables may
+/// lead the steps past each other: then F = 0 is looked for on a line.
 bool settle(const proxy::BodyProxy::Data& proxy, GapProbe& probe, double tolerance_m) {
   constexpr int kSteps = 8;
+  constexpr double kSearched = 0.05;  // to either side, of the stature: as far as tables reach
+  const Vec3 start = probe.at.point;
   for (int step = 0; step < kSteps; ++step) {
     const proxy::ProxyDistance f = proxy::proxy_distance(proxy, probe.at.point);
     if (std::abs(f.distance) <= tolerance_m) return f.owner == probe.ellipsoid;
     if (step == 0 && proxy.relief.empty() && f.distance < -proxy.margin_m - tolerance_m) return false;
     probe.at.point -= f.distance * f.normal;
   }
-  return false;
+  if (proxy.relief.empty()) return false;
+  probe.at.point = start;
+  return find_on_normal(proxy, probe, kSearched * proxy.stature_m);
 }
 
 /// Enclosing ellipsoids of the parts that are not wanted.
@@ -85,6 +115,34 @@ Spread gaps(const std::vector<GapProbe>& probes, const proxy::BodyProxy::Data& p
     if (p.gap_m >= 0.0 && (part < 0 || static_cast<int>(proxy.ellipsoids[p.ellipsoid].part) == part))
       values.emplace_back(p.gap_m, p.at.area);
   return spread_of(std::move(values));
+}
+
+/// Raises the largest gaps where points above the skin lie inside the proxy. A lump of relief may have no
+/// probe: its surface is not where the ellipsoid's is.
+void measure_lumps(const engine::Context& context, const proxy::BodyProxy::Data& proxy,
+                   const LabeledSkin& skin, const geometry::MeshDistance& distance, Measured& measured) {
+  constexpr double kHeights[] = {0.006, 0.015, 0.03};  // of the stature: 10, 25 and 50 mm
+  struct Lump {
+    double gap_m = 0.0;
+    std::uint32_t owner = 0;
+  };
+  const auto samples = geometry::sample_surface(skin.mesh, kSkinSamples, 2);
+  std::vector<Lump> lumps(samples.size());
+  engine::parallel_for(context, samples.size(), kPointGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (const double height : kHeights) {
+        const Vec3 normal = geometry::area_vector(skin.mesh, samples[i].triangle).stableNormalized();
+        const Vec3 p = samples[i].point + height * skin.stature_m * normal;
+        const proxy::ProxyDistance f = proxy::proxy_distance(proxy, p);
+        if (f.distance < 0.0) lumps[i] = {std::max(lumps[i].gap_m, distance.signed_distance(p)), f.owner};
+      }
+  });
+  for (const Lump& lump : lumps) {
+    if (lump.gap_m <= 0.0) continue;
+    Spread& part = measured.gap_of_part[static_cast<std::size_t>(proxy.ellipsoids[lump.owner].part)];
+    part.max = std::max(part.max, lump.gap_m);
+    measured.accuracy.gap_m.max = std::max(measured.accuracy.gap_m.max, lump.gap_m);
+  }
 }
 
 void measure_skin(const engine::Context& context, const proxy::BodyProxy::Data& proxy,
@@ -170,6 +228,7 @@ Measured measure(const engine::Context& context, const proxy::BodyProxy::Data& p
   Measured result;
   result.accuracy.gap_m = gaps(probes, proxy, -1);
   for (int part = 0; part < body::kAllPartCount; ++part) result.gap_of_part[part] = gaps(probes, proxy, part);
+  if (!proxy.relief.empty() && others.empty()) measure_lumps(context, proxy, skin, distance, result);
   measure_skin(context, proxy, skin, parts, tolerance_m, result.accuracy);
   measure_interior(context, proxy, skin, distance, parts, result.accuracy);
   return result;
