@@ -72,6 +72,30 @@ prints "finite"
 refused drape --fabric wool
 prints "silk"
 
+refused query p.json triangle.obj --motion clip.glb --time nan
+refused fitt
+prints "no command 'fitt'"
+prints "query"
+one_line
+expect 1 "a motion that is not made here" "$bodice" drape --motion wlak
+prints "arms-up"
+one_line
+refused drape --motion walk --clip run
+prints "no clip 'run'"
+refused drape --motion walk --dt 1e-9
+prints "over 100000 frames"
+refused fit --tier paper --vertices 2000 --poses sit@-1 -o poses.json
+prints "no pose at -1 s"
+expect 0 "a short built-in body has a mass of its height" "$bodice" fit --height 1.2 --tier paper --vertices 2000 -o short.json
+printf '\xef\xbb\xbf0 0.5 0\n' >marked.txt
+expect 0 "points behind a byte order mark" "$bodice" query short.json marked.txt
+one_line
+for command in "--help" "fit --help" "query short.json marked.txt"; do
+  "$bodice" $command >/dev/full 2>out.txt
+  [ $? -eq 1 ] || { echo "FAILED: a full disk is not noticed by: $command"; failures=$((failures + 1)); }
+  prints "Standard output"
+done
+
 # Empty names, as of unset variables, are refused.
 refused fit ""
 prints "built-in"

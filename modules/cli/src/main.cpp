@@ -6,6 +6,18 @@
 #include "options/options.hpp"
 #include "output/terminal.hpp"
 
+namespace {
+
+/// The names of all commands, in the order of the help.
+std::string commands(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  return names;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace bodice::cli;
   CLI::App app{"bodice turns a human body mesh into a small analytic proxy and keeps cloth out of it."};
@@ -35,7 +47,14 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
-    return app.exit(help);
+    exit_code = app.exit(help);
+  } catch (const CLI::RequiredError& error) {
+    if (argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty())
+      return fail({bodice::engine::ErrorCode::kInvalidArgument,
+                   std::string("There is no command '") + argv[1] + "'.",
+                   "Commands are " + commands(app) + "."});
+    app.exit(error);
+    return kExitUsage;
   } catch (const CLI::ParseError& error) {
     app.exit(error);
     return kExitUsage;
@@ -44,5 +63,8 @@ int main(int argc, char** argv) {
                  std::string("Unexpected failure: ") + error.what() + ".",
                  "Please report it with the input that caused it."});
   }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    return fail({bodice::engine::ErrorCode::kWriteFailed, "Standard output cannot be written to its end.",
+                 "Free some room on the disk, or print to another file."});
   return exit_code;
 }

@@ -60,7 +60,7 @@ void add_motion_options(CLI::App& sub, DrapeCommand& c) {
       ->needs(motion)
       ->group(group);
   sub.add_option("--frames", c.frames, "frames to simulate (default: 120, or the clip once)")
-      ->check(whole(1, 100000))
+      ->check(whole(1, kMostFrames))
       ->group(group);
   sub.add_option("--dt", c.drape.dt_s, "seconds a frame")
       ->check(between(0.0, 1.0))

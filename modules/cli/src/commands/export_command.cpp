@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -11,6 +13,7 @@
 #include <bodice/engine/write_file.hpp>
 #include <bodice/io/import.hpp>
 #include <bodice/proxy/base_pose.hpp>
+#include <bodice/proxy/proxy_distance.hpp>
 #include <bodice/proxy/proxy_surface.hpp>
 
 #include "options/options.hpp"
@@ -39,6 +42,25 @@ struct Reduced {
   std::string what;  ///< "32 capsules", "89 ellipsoids"
 };
 
+/// Whether the skin is the one that the proxy stands for. Wide tiers enclose theirs; much of another body's
+/// is outside.
+engine::Result<void> check_body(const proxy::BodyProxy& proxy, const geometry::TriMesh& skin,
+                                const std::string& file) {
+  constexpr std::size_t kSamples = 1000;
+  constexpr double kOther = 0.003;  // of the stature, 5 mm; no tier leaves out a tenth of that
+  const std::size_t step = std::max<std::size_t>(1, skin.positions.size() / kSamples);
+  double sum_m = 0.0;
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < skin.positions.size(); v += step, ++count)
+    sum_m += std::max(0.0, proxy::proxy_distance(proxy, skin.positions[v]).distance);
+  const double mean_m = sum_m / static_cast<double>(std::max<std::size_t>(1, count));
+  if (mean_m <= kOther * proxy.stature_m()) return {};
+  return engine::Error{engine::ErrorCode::kInvalidArgument,
+                       engine::message("The body '", file, "' is not that of the proxy: its skin is ",
+                                       std::lround(1e3 * mean_m), " mm outside of it on average."),
+                       "Name the file that the proxy was fitted to, in the pose that it had."};
+}
+
 engine::Result<geometry::TriMesh> reference(const engine::Context& context, const ExportCommand& command,
                                             const proxy::BodyProxy& proxy) {
   if (!command.body.empty()) {
@@ -46,6 +68,7 @@ engine::Result<geometry::TriMesh> reference(const engine::Context& context, cons
     options.up = proxy.frame().up;
     auto body = io::import_body(context, command.body, options);
     if (!body) return std::move(body).error();
+    if (auto same = check_body(proxy, body->skin, command.body); !same) return same.error();
     return std::move(body->skin);
   }
   auto surface = proxy::proxy_surface(context, proxy, proxy.stature_m() / kReferenceCells);

@@ -38,6 +38,7 @@ engine::Result<std::vector<Vec3>> read_points(std::istream& in, const std::strin
   std::vector<Vec3> points;
   std::string line;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // some editors begin UTF-8 so
     if (line.find_first_not_of(" \t\r") == std::string::npos || line[0] == '#') continue;
     std::istringstream fields(line);
     Vec3 p;
@@ -48,7 +49,7 @@ engine::Result<std::vector<Vec3>> read_points(std::istream& in, const std::strin
                            "Write one point a line: x y z."};
     points.push_back(p);
   }
-  if (in.bad())
+  if (in.bad() || std::ferror(stdin) != 0)
     return engine::Error{engine::ErrorCode::kUnreadable, name + ": cannot be read to its end.",
                          "Check the file."};
   return points;
@@ -168,6 +169,7 @@ void add_query_command(CLI::App& app, int& exit_code) {
       ->check(not_empty())
       ->needs(motion);
   sub->add_option("--time", command->motion.time_s, "seconds of the clip, from 0 (default: 0)")
+      ->check(zero_or_more())
       ->needs(motion);
   CLI::Option* const refit =
       sub->add_flag("--refit", command->refit,

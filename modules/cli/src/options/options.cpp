@@ -196,11 +196,10 @@ void add_builtin_options(CLI::App& command, CommonOptions& o) {
       ->excludes("BODY")
       ->group(group)
       ->capture_default_str();
-  command.add_option("--mass", o.mass_kg, "kilograms")
+  command.add_option("--mass", o.mass_kg, "kilograms (default: 62 at 1.68 m, by the square of the height)")
       ->check(above_zero())
       ->excludes("BODY")
-      ->group(group)
-      ->capture_default_str();
+      ->group(group);
   command
       .add_option("--pose", o.pose,
                   "a, t, arms-down, arms-up, stride, sit, squat, run, kick, lying, handstand, random")
@@ -264,7 +263,8 @@ engine::Result<synth::BodyOptions> builtin_body(const CommonOptions& o) {
   synth::BodyOptions options;
   options.sex = o.sex == "male" ? body::Sex::kMale : body::Sex::kFemale;
   options.stature_m = o.height_m;
-  options.mass_kg = o.mass_kg;
+  const double of_usual = options.stature_m / synth::BodyOptions{}.stature_m;
+  options.mass_kg = o.mass_kg.value_or(synth::BodyOptions{}.mass_kg * of_usual * of_usual);
   options.pose = kPoses.at(o.pose);
   options.vertices = o.vertices;
   options.seed = o.seed;

@@ -24,7 +24,8 @@ struct CommonOptions {
   bool force = false, keep_noise = false;
 
   std::string sex = "female", pose = "a";
-  double height_m = 1.68, mass_kg = 62.0;
+  double height_m = 1.68;
+  std::optional<double> mass_kg;  ///< absent: the usual one of the height
   int vertices = 8850;
 
   std::string tier;

@@ -25,7 +25,9 @@ engine::Result<std::vector<tryon::WornGarment>> wear_files(const Run& run, const
     skin.warnings.insert(skin.warnings.end(), garment->warnings.begin(), garment->warnings.end());
     if (command.position == "auto") {
       auto placed = tryon::place_garment(
-          run.context(), {*skin.distance, skin.input.skin, skin.anatomy.stature_m}, file, garment->skin);
+          run.context(),
+          {*skin.distance, skin.input.skin, skin.anatomy.stature_m, skin.input.frame.meters_per_unit}, file,
+          garment->skin);
       if (!placed) return std::move(placed).error();
       if (*placed) skin.warnings.push_back(**placed);
     }
@@ -155,8 +157,15 @@ engine::Result<void> write_outputs(Run& run, const DrapeCommand& command, const 
 }
 
 /// The frames that play a clip once, when the user gives no number.
-int frames_of(const rig::Clip& clip, double dt_s) {
-  return dt_s > 0.0 ? std::max(1, static_cast<int>(std::ceil(clip.duration_s / dt_s - 1e-6))) : 1;
+engine::Result<int> frames_of(const rig::Clip& clip, double dt_s) {
+  if (!(dt_s > 0.0)) return 1;
+  const double frames = std::ceil(clip.duration_s / dt_s - 1e-6);
+  if (frames > kMostFrames)
+    return engine::Error{engine::ErrorCode::kInvalidArgument,
+                         engine::message("The clip '", clip.name, "' takes ", clip.duration_s,
+                                         " s, which are over ", kMostFrames, " frames of ", dt_s, " s."),
+                         "Give --frames, or a longer --dt."};
+  return std::max(1, static_cast<int>(frames));
 }
 
 /// The distance of --tack-mm, which is checked already.
@@ -171,8 +180,13 @@ engine::Result<tryon::DrapeOptions> drape_options(const DrapeCommand& command, c
                                                   const tryon::BodyMotion* motion) {
   tryon::DrapeOptions options = command.drape;
   options.motion = motion;
-  if (motion) options.frames = frames_of(motion->clip, options.dt_s);
-  if (command.frames) options.frames = *command.frames;
+  if (command.frames) {
+    options.frames = *command.frames;
+  } else if (motion) {
+    const auto frames = frames_of(motion->clip, options.dt_s);
+    if (!frames) return frames.error();
+    options.frames = *frames;
+  }
   auto fabric = cloth::find_fabric(command.fabric);
   if (!fabric) return std::move(fabric).error();
   options.fabric = std::move(fabric).value();

@@ -12,6 +12,9 @@
 namespace bodice::inline v0_1::cli {
 
 /// The options of `drape`.
+/// Frames that one drape may have.
+inline constexpr int kMostFrames = 100000;
+
 struct DrapeCommand {
   CommonOptions common;
   std::vector<std::string> garments, props;

@@ -23,6 +23,7 @@ engine::Result<std::vector<proxy::JointMatrix>> joints_at(const engine::Context&
   if (!read) return std::move(read).error();
   const auto clip = tryon::choose_clip(motion.choice, read->clips);
   if (!clip) return clip.error();
+  if (auto inside = tryon::check_time(*clip, motion.time_s); !inside) return inside.error();
   std::vector<rig::Affine> world(read->skeleton.joints.size());
   rig::joint_matrices(read->skeleton, *clip, motion.time_s, world);
   std::vector<proxy::JointMatrix> joints(binding.bind.size(), rig::identity());

@@ -54,6 +54,7 @@ engine::Result<proxy::BasePoses> prepare_poses(const engine::Context& context,
                            "Give motions as in sit, or sit@2.5."};
     auto motion = tryon::find_motion(context, body.skin, {.motion = pose->motion, .clip = ""}, warnings);
     if (!motion) return std::move(motion).error();
+    if (auto inside = tryon::check_time(motion->clip, pose->time_s); !inside) return inside.error();
     std::vector<rig::Affine> world(motion->rig.skeleton.joints.size());
     rig::joint_matrices(motion->rig.skeleton, motion->clip, pose->time_s, world);
     auto base = tryon::make_base_pose(context, body.fit.proxy, body.skin, world, text);
