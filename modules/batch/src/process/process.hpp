@@ -28,9 +28,10 @@ class ChannelEnd {
 /// Two connected ends, of which a child process keeps one. Lines go both directions.
 struct Channel {
   ChannelEnd ours, theirs;
+  explicit operator bool() const { return ours.descriptor() >= 0; }
 };
 
-/// Both ends are -1 on failure.
+/// Without ends where the system has no descriptors left.
 Channel make_channel();
 
 /// Sends the text and a line end as a whole. Returns false if the other process is gone.

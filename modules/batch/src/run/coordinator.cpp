@@ -121,14 +121,14 @@ void Coordinator::start(Crew& crew) {
   crew.begin_s = now_s();
   ++crew.starts;
   const pid_t parent = ::getpid();
-  crew.process = ::fork();
+  crew.process = channel ? ::fork() : -1;
   if (crew.process == 0) {
     channel.ours.close();
     serve(context_, crew.waiting.front().job, std::move(channel.theirs), parent);
   }
   if (crew.process < 0) {
     fatal_ = engine::Error{engine::ErrorCode::kInternal, "The system refused another process.",
-                           "Lower --jobs, or raise the limit of processes (ulimit -u)."};
+                           "Lower --jobs, or raise the limits of processes and files (ulimit -u, -n)."};
     return;
   }
   crew.channel = std::move(channel.ours);

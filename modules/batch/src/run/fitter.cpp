@@ -130,7 +130,7 @@ class Fitter {
   template <class Attempt>
   bool fork_for(Running& job, Attempt attempt) {
     Channel channel = make_channel();
-    job.process = ::fork();
+    job.process = channel ? ::fork() : -1;
     if (job.process == 0) {
       channel.ours.close();
       become_child(parent_of_jobs_);
