@@ -1,5 +1,7 @@
 #include <bodice/engine/ticket.hpp>
 
+#include <new>
+
 #include <bodice/engine/trace.hpp>
 
 namespace bodice::inline v0_1::engine {
@@ -16,6 +18,8 @@ Result<void> Job::call() noexcept {
     return work_(*this, context_);
   } catch (const Canceled&) {
     return Error{ErrorCode::kCanceled, "'" + name_ + "' was canceled.", ""};
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::kInternal, "No memory.", ""};  // short enough to need none
   } catch (const std::exception& error) {
     return Error{ErrorCode::kInternal, "'" + name_ + "' failed: " + error.what() + ".", ""};
   } catch (...) {
@@ -27,7 +31,12 @@ void Job::run() noexcept {
   Stage expected = Stage::kWaiting;
   if (!stage_.compare_exchange_strong(expected, Stage::kRunning)) return;
   result_ = call();
-  if (!result_ && result_.error().code != ErrorCode::kCanceled) context_.warn(result_.error().sentence());
+  if (!result_ && result_.error().code != ErrorCode::kCanceled) {
+    try {
+      context_.warn(result_.error().sentence());
+    } catch (...) {  // there is no memory for the line, or the host's log throws; the result has the error
+    }
+  }
   work_ = nullptr;  // releases the captures of the work here and not in a frame
   stage_.store(Stage::kDone, std::memory_order_release);
   signal();

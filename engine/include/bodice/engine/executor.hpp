@@ -1,4 +1,5 @@
-// Executors run tasks. Nothing in bodice starts a thread except the TBB executor that the caller makes.
+// Executors run tasks. Layers start no thread but those of the TBB executor that the caller makes; the
+// C interface has threads of a context and of a ticket besides.
 #pragma once
 
 #include <cstddef>

@@ -250,8 +250,10 @@ class Builder {
   std::vector<std::uint8_t> leaf_size_;  // of the leaf that begins there
 };
 
-bool finite_corners(const TriMesh& mesh, std::size_t t) {
-  return mesh.corner(t, 0).allFinite() && mesh.corner(t, 1).allFinite() && mesh.corner(t, 2).allFinite();
+/// Whether a triangle has three vertices of the mesh, and all are finite.
+bool has_corners(const TriMesh& mesh, std::size_t t) {
+  return std::ranges::all_of(mesh.triangles[t], [&](Index v) { return v < mesh.positions.size(); }) &&
+         mesh.corner(t, 0).allFinite() && mesh.corner(t, 1).allFinite() && mesh.corner(t, 2).allFinite();
 }
 
 void set_frame(Bvh& bvh, const TriMesh& mesh) {
@@ -268,7 +270,7 @@ void set_frame(Bvh& bvh, const TriMesh& mesh) {
 Bvh build_bvh(const engine::Context& context, const TriMesh& mesh) {
   Bvh bvh;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (finite_corners(mesh, t)) bvh.triangle_of_leaf.push_back(static_cast<Index>(t));
+    if (has_corners(mesh, t)) bvh.triangle_of_leaf.push_back(static_cast<Index>(t));
   if (bvh.triangle_of_leaf.empty()) return bvh;
   set_frame(bvh, mesh);
   const std::size_t count = bvh.triangle_of_leaf.size();

@@ -31,10 +31,11 @@ inline constexpr std::uint32_t kNoEllipsoid = ~std::uint32_t{0};
 
 /// Result of a query for one particle. It is aligned to its size, so that none straddles two cache lines.
 struct alignas(32) Contact {
-  float signed_distance = 0.0f;  ///< meters to the proxy's surface (margin included), negative inside
-  float point[3] = {0, 0, 0};    ///< closest surface point, local frame
-  float normal[3] = {0, 1, 0};   ///< outward unit normal there
-  std::uint32_t ellipsoid = 0;   ///< index into BodyProxy::ellipsoids(), or kNoEllipsoid
+  /// Meters to the proxy's surface (margin included), negative inside.
+  float signed_distance = std::numeric_limits<float>::infinity();
+  float point[3] = {0, 0, 0};              ///< closest surface point, local frame
+  float normal[3] = {0, 1, 0};             ///< outward unit normal there
+  std::uint32_t ellipsoid = kNoEllipsoid;  ///< index into BodyProxy::ellipsoids(), or kNoEllipsoid
 };
 
 /// How exact the result of a query is.
@@ -103,10 +104,10 @@ struct ContactReport {
 
 /// The state that a caller keeps from call to call for one set of particles. It holds a spatial order, so
 /// that the speed does not depend on the order of the arrays. It also holds the candidate cache, which stays
-/// valid while particles and proxy move by millimeters. It never changes a bit of a result and refreshes
-/// itself; any collider may use it. It is not thread-safe. It allocates about 35 bytes a particle, half of it
-/// in the second call, and again when the number of particles grows, out of `memory` if it is given, which
-/// outlives the workspace.
+/// valid while particles and proxy move by millimeters. It never changes a bit of a response or of an exact
+/// query, and refreshes itself; any collider may use it. It is not thread-safe. It allocates about 35 bytes a
+/// particle, half of it in the second call, and again when the number of particles grows, out of `memory` if
+/// it is given, which outlives the workspace.
 class Workspace {
  public:
   explicit Workspace(engine::MemoryResource* memory = nullptr);
@@ -122,8 +123,8 @@ class Workspace {
 struct StridedParticles;
 
 /// A body proxy prepared for queries: floats in a local frame, with boxes for the broad phase. Thread-safe
-/// except for move_to(). It is fastest if neighbors in space are neighbors in the arrays, or if a Workspace
-/// is given.
+/// except for move_to() and pose(). It is fastest if neighbors in space are neighbors in the arrays, or if a
+/// Workspace is given.
 class Collider {
  public:
   /// Prepares a proxy; allocates. O(#ellipsoids + #texels), for 89 ellipsoids 10 microseconds, with relief 2
@@ -143,7 +144,7 @@ class Collider {
   /// Whether relief tables correct the distance. Without them the distance is 1-Lipschitz: it changes by no
   /// more than the point moves.
   bool has_relief() const noexcept;
-  std::uint64_t poses() const noexcept;  ///< number of calls of move_to() that changed the pose
+  std::uint64_t poses() const noexcept;  ///< number of calls of move_to() and pose() that changed the pose
 
   /// Moves the proxy to another pose: `shapes` are the size() ellipsoids of the new pose in world meters;
   /// relief tables move along. The origin stays. From then on contacts use the surface's velocity, (new - old

@@ -22,7 +22,8 @@ struct SurfacePoint {
 /// folds and several components still have an inside.
 class MeshDistance {
  public:
-  /// Builds the tree in O(n log n). For an empty mesh every distance is +infinity.
+  /// Builds the tree in O(n log n). For an empty mesh every distance is +infinity. Triangles with a vertex
+  /// that is not there or not finite are left out. Throws engine::Canceled if the context is canceled.
   MeshDistance(const engine::Context& context, const TriMesh& mesh);
   ~MeshDistance();
   MeshDistance(MeshDistance&&) noexcept;
