@@ -97,6 +97,10 @@ TEST_CASE("BVH files that cannot be read are refused in one sentence that names 
   check_refused(spoiled("f.bvh", "Frames: 2", "Frames: 0"), "the number of frames");
   check_refused(spoiled("g.bvh", "Time: 0.25", "Time: 0"), "the time of a frame");
   check_refused(folder.write("cut.bvh", kBvh.substr(0, 60)), "line");
+  check_refused(folder.write("still.bvh",
+                             "HIERARCHY\nROOT a\n{\n OFFSET 0 0 0\n CHANNELS 0\n}\nMOTION\n"
+                             "Frames: 1000000000\nFrame Time: 0.1\n"),
+                "a joint with channels");
   std::string deep = "HIERARCHY\nROOT a\n{\n";
   for (int k = 0; k < 5000; ++k) deep += "JOINT b\n{\n";
   check_refused(folder.write("deep.bvh", deep), "too large");
