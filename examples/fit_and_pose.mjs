@@ -30,6 +30,11 @@ let body = skin.fit({tier: 'solid'});
 console.log(`${skin.stature.toFixed(2)} m tall, waist ${skin.measurements.waist.toFixed(2)} m; ` +
             `${body.ellipsoids.length} ellipsoids, ${body.joints.length} joints`);
 
+// What a file would hold, and the proxy of it.
+const again = bodice.loadProxy(body.toBytes());
+if (again.hash !== body.hash) throw new Error('a proxy is what its bytes hold');
+again.destroy();
+
 // Bones: 12 numbers a joint, row after row. The whole body moves forward, one millimeter a frame.
 const rest = Float32Array.from(body.joints.flatMap((_, joint) => [...body.bindMatrix(joint)]));
 for (let frame = 0; frame < 30; ++frame)

@@ -27,6 +27,10 @@ def main(path=None):
     error = body.signed_distance(skin.vertices) - body.signed_distance(skin.vertices, exact=True)
     print(f"{np.abs(error).mean() * 1e3:.1f} mm from the skin on average")
 
+    saved = body.to_bytes()                      # what a file would hold; bodice.load() reads files
+    again = bodice.Body(saved)
+    assert again.hash == body.hash
+
     matrices = body.bind_matrices()              # (joints, 3, 4): the pose that the body is in
     for frame in range(30):                      # and moves forward, one millimeter a frame
         moved = matrices.copy()
