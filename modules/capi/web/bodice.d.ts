@@ -6,10 +6,11 @@ export type Numbers = ArrayLike<number>;
 /** Hears the stages of long work: "repair", "segment", "rig", "fit". A result that is true cancels. */
 export type OnStage = (stage: string) => unknown;
 export interface LoadOptions {
-  /** The bytes of bodice_wasm.wasm; absent: read from beside bodice.mjs. */
+  /** The bytes of bodice_wasm.wasm, or of bodice_wasm_plain.wasm without vectors; absent: read from beside bodice.mjs. */
   wasm?: Uint8Array | ArrayBuffer;
 }
-/** Throws BodiceError where WebAssembly has no vectors (SIMD128). */
+/** Whether the engine has vectors (SIMD128). Without them load() takes a slower build. */
+export function hasVectors(): boolean;
 export function load(options?: LoadOptions): Promise<Bodice>;
 
 export interface Bodice {

@@ -5,15 +5,14 @@
 //     const skin = bodice.skin(positions, faces);        // meters; 3 numbers a vertex, 3 indices a triangle
 //     const body = skin.fit({tier: 'relief'});           // or bodice.loadProxy(bytes)
 //     const {distance, normal} = body.contacts(points);  // 3 floats a point
-import start from './bodice_wasm.mjs';
 import {Body} from './body.mjs';
 import {BodiceError, indices, Library, triples} from './library.mjs';
 import {Skin, withStages} from './skin.mjs';
 
 export {BodiceError};
 
-async function readWasm() {
-  const url = new URL('./bodice_wasm.wasm', import.meta.url);
+async function readWasm(name) {
+  const url = new URL(name, import.meta.url);
   if (url.protocol === 'file:' && typeof process === 'object') {
     const {readFile} = await import('node:fs/promises');
     return readFile(url);
@@ -27,11 +26,17 @@ async function readWasm() {
 const VECTOR_PROGRAM = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0,
                                      10, 22, 1, 20, 0, 253, 12, ...new Uint8Array(16), 11);
 
-/** Starts the library; `wasm` are the bytes of bodice_wasm.wasm, which are read from beside this file if absent. */
+/** Whether the engine has vectors (SIMD128), as all have since Chrome 91, Firefox 89, Safari 16.4 and node 18. */
+export function hasVectors() {
+  return WebAssembly.validate(VECTOR_PROGRAM);
+}
+
+/** Starts the library; `wasm` are the bytes of bodice_wasm.wasm, or of bodice_wasm_plain.wasm where the engine has no
+ * vectors. They are read from beside this file if absent. */
 export async function load({wasm} = {}) {
-  if (!WebAssembly.validate(VECTOR_PROGRAM))
-    throw new BodiceError('WebAssembly has no vectors (SIMD128) here. Use Chrome 91, Firefox 89, Safari 16.4, node 18 or later.');
-  return new Bodice(await start({wasmBinary: wasm ?? await readWasm(), printErr() {}}));
+  const {default: start} = hasVectors() ? await import('./bodice_wasm.mjs') : await import('./bodice_wasm_plain.mjs');
+  const name = hasVectors() ? './bodice_wasm.wasm' : './bodice_wasm_plain.wasm';
+  return new Bodice(await start({wasmBinary: wasm ?? await readWasm(name), printErr() {}}));
 }
 
 /** Names by number, from 0 until there is no further one. */
