@@ -130,7 +130,8 @@ std::string answers(const proxy::BodyProxy& proxy, const QueryCommand& command,
 }
 
 engine::Result<void> query(const QueryCommand& command) {
-  const FileOption output{"-o", command.output};
+  const bool prints = command.output.empty() || command.output == "-";
+  const FileOption output{"-o", prints ? "" : command.output};
   const FileOption inputs[] = {{"PROXY", command.proxy},
                                {"POINTS", command.points},
                                {"--motion", command.motion.choice.motion},
@@ -144,7 +145,7 @@ engine::Result<void> query(const QueryCommand& command) {
                         ? engine::Result<std::string>(answers(both->proxy, command, *points))
                         : posed_answers(*both, command, *points);
   if (!text) return text.error();
-  if (!command.output.empty()) return engine::write_file(command.output, std::string_view(*text));
+  if (!prints) return engine::write_file(command.output, std::string_view(*text));
   std::fputs(text->c_str(), stdout);
   return {};
 }

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <numeric>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include <bodice/cloth/weld.hpp>
 #include <bodice/geometry/disjoint_sets.hpp>
@@ -51,7 +53,7 @@ struct Cell {
   }
 };
 
-std::vector<Cell> sorted_cells(const TriMesh& mesh, double tolerance) {
+std::vector<Cell> sorted_cells(const TriMesh& mesh, double tolerance, const std::vector<bool>& repeats) {
   geometry::Box box;
   for (const Vec3& p : mesh.positions) {
     if (p.allFinite()) box.extend(p);
@@ -61,7 +63,7 @@ std::vector<Cell> sorted_cells(const TriMesh& mesh, double tolerance) {
   const double cell = std::max(tolerance, box.empty() ? 0.0 : box.size().maxCoeff() * 0x1.0p-40);
   std::vector<Cell> cells;
   for (Index v = 0; v < mesh.positions.size(); ++v) {
-    if (!mesh.positions[v].allFinite()) continue;
+    if (!mesh.positions[v].allFinite() || repeats[v]) continue;
     const Vec3 q = cell > 0.0 ? Vec3((mesh.positions[v] - box.low) / cell) : Vec3(Vec3::Zero());
     cells.push_back({{std::int64_t(q[0]), std::int64_t(q[1]), std::int64_t(q[2])}, v});
   }
@@ -69,11 +71,31 @@ std::vector<Cell> sorted_cells(const TriMesh& mesh, double tolerance) {
   return cells;
 }
 
+// Links vertices at one point, and returns which are not the first of theirs. Without them a cell has few
+// vertices, although files hide parts by collapsing them into a point.
+std::vector<bool> link_equal(const TriMesh& mesh, geometry::DisjointSets& linked) {
+  std::vector<Index> order(mesh.positions.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::erase_if(order, [&](Index v) { return !mesh.positions[v].allFinite(); });
+  const auto key = [&](Index v) {
+    const Vec3& p = mesh.positions[v];
+    return std::tuple(p.x(), p.y(), p.z(), v);
+  };
+  std::ranges::sort(order, {}, key);
+  std::vector<bool> repeats(mesh.positions.size(), false);
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (mesh.positions[order[i]] != mesh.positions[order[i - 1]]) continue;
+    repeats[order[i]] = true;
+    linked.unite(order[i - 1], order[i]);
+  }
+  return repeats;
+}
+
 // The representative of each vertex: the lowest index among the vertices linked by steps of at most
 // `tolerance`.
 std::vector<Index> representatives(const TriMesh& mesh, double tolerance) {
   geometry::DisjointSets linked(mesh.positions.size());
-  const std::vector<Cell> cells = sorted_cells(mesh, tolerance);
+  const std::vector<Cell> cells = sorted_cells(mesh, tolerance, link_equal(mesh, linked));
   for (const Cell& c : cells) {
     for (int n = 0; n < 9; ++n) {  // three cells along z are one run of the sorted list
       const std::array<std::int64_t, 3> low = {c.key[0] + n / 3 - 1, c.key[1] + n % 3 - 1, c.key[2] - 1};

@@ -31,8 +31,8 @@ typedef struct bodice_scalars {
 /** Coordinates: of the world, or of the collider's local frame (world less bodice_collider_get_origin()). */
 enum { BODICE_WORLD = 0, BODICE_LOCAL = 1 };
 
-/** Particles of the host. Nothing needs alignment, and no array is copied: the kernels read 256 particles at
- * a time from where they are, and write what a response changes there. */
+/** Particles of the host. Nothing but `index` needs alignment, and no array is copied: the kernels read 256
+ * particles at a time from where they are, and write what a response changes there. */
 typedef struct bodice_particles {
   bodice_head head;
   size_t count; /**< particles to handle */

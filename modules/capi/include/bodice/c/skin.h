@@ -14,7 +14,8 @@ extern "C" {
 /** The repaired mesh of a body, and what is known of it. All uses are const uses. */
 typedef struct bodice_skin bodice_skin;
 
-/** The bones of the host, and what binds the vertices of its mesh to them. Nothing needs alignment. */
+/** The bones of the host, and what binds the vertices of its mesh to them. Names, parents,
+ * joints and weights are aligned as their types, matrices need not be. */
 typedef struct bodice_rig {
   bodice_head head;
   const bodice_pose*
