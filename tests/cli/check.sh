@@ -80,11 +80,11 @@ one_line
 expect 1 "a motion that is not made here" "$bodice" drape --motion wlak
 prints "arms-up"
 one_line
-refused drape --motion walk --clip run
+expect 2 "a clip of a made motion" "$bodice" drape --tier paper --vertices 2000 --motion walk --clip run
 prints "no clip 'run'"
-refused drape --motion walk --dt 1e-9
+expect 2 "more frames than there may be" "$bodice" drape --tier paper --vertices 2000 --motion walk --dt 1e-9
 prints "over 100000 frames"
-refused fit --tier paper --vertices 2000 --poses sit@-1 -o poses.json
+expect 2 "a pose before the clip" "$bodice" fit --tier paper --vertices 2000 --poses sit@-1 -o poses.json
 prints "no pose at -1 s"
 expect 0 "a short built-in body has a mass of its height" "$bodice" fit --height 1.2 --tier paper --vertices 2000 -o short.json
 printf '\xef\xbb\xbf0 0.5 0\n' >marked.txt
