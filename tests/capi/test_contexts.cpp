@@ -51,16 +51,21 @@ std::vector<double> simulate(const Scene& scene, std::uint64_t seed) {
   return world;
 }
 
+/// Options of a context with its arrays in `memory`.
+bodice_context_options counted_by(Counted& memory) {
+  bodice_context_options options = bodice_default_context_options();
+  options.host = &memory;
+  options.allocate = Counted::allocate;
+  options.release = Counted::release;
+  return options;
+}
+
 }  // namespace
 
 TEST_CASE("capi: arrays that grow with particles or texels lie in memory of the host, which gets it back") {
   Counted memory;
   {
-    bodice_context_options options = bodice_default_context_options();
-    options.host = &memory;
-    options.allocate = Counted::allocate;
-    options.release = Counted::release;
-    auto context = bodice::Context::create(options);
+    auto context = bodice::Context::create(counted_by(memory));
     REQUIRE(context);
     const auto engine_proxy = limb_proxy(true);
     const auto proxy = make_proxy(*context, engine_proxy);
@@ -107,7 +112,7 @@ TEST_CASE("capi: arrays that grow with particles or texels lie in memory of the 
     memory.exhausted = false;
     const auto report = collider->resolve(many, *workspace);
     REQUIRE(report);
-    auto fresh = bodice::Workspace::create(*bodice::Context::create(options));
+    auto fresh = bodice::Workspace::create(*bodice::Context::create(counted_by(memory)));
     std::vector<double> again(30000, 0.01);
     many.position(again.data());
     REQUIRE(collider->resolve(many, *fresh));
@@ -119,11 +124,7 @@ TEST_CASE("capi: arrays that grow with particles or texels lie in memory of the 
 
 TEST_CASE("capi: after a call that memory ran out in, wherever, the next one has the bits of any other") {
   Counted memory;
-  bodice_context_options options = bodice_default_context_options();
-  options.host = &memory;
-  options.allocate = Counted::allocate;
-  options.release = Counted::release;
-  auto context = bodice::Context::create(options);
+  auto context = bodice::Context::create(counted_by(memory));
   REQUIRE(context);
   const Scene scene(limb_proxy(true));
   const auto proxy = make_proxy(*context, limb_proxy(true));

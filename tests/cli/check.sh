@@ -90,6 +90,14 @@ expect 0 "a short built-in body has a mass of its height" "$bodice" fit --height
 printf '\xef\xbb\xbf0 0.5 0\n' >marked.txt
 expect 0 "points behind a byte order mark" "$bodice" query short.json marked.txt
 one_line
+cp out.txt printed.txt
+expect 0 "- is standard output" "$bodice" query short.json marked.txt -o -
+cmp -s out.txt printed.txt || { echo "FAILED: -o - prints something else"; failures=$((failures + 1)); }
+absent -
+expect 0 "a taller body" "$bodice" make --height 1.6 --vertices 2000 -o tall.obj
+expect 2 "colliders of another body" "$bodice" export short.json --to unity --body tall.obj -o unity.json
+prints "not that of the proxy"
+absent unity.json
 for command in "--help" "fit --help" "query short.json marked.txt"; do
   "$bodice" $command >/dev/full 2>out.txt
   [ $? -eq 1 ] || { echo "FAILED: a full disk is not noticed by: $command"; failures=$((failures + 1)); }

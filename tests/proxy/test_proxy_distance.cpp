@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -51,6 +52,16 @@ TEST_CASE("octahedral map: its inverse returns every direction, also on the seam
     const auto [x, y] = proxy::octahedral_map(w);
     CHECK(std::abs(x) <= 1.0 + 1e-12);
     CHECK((proxy::octahedral_direction(x, y) - w).norm() < 1e-12);
+  }
+}
+
+TEST_CASE("octahedral map: what has no direction has a position, too") {
+  for (const double none : {0.0, std::numeric_limits<double>::quiet_NaN()}) {
+    const auto [x, y] = octahedral_map(Vec3::Constant(none));
+    CHECK(x == 0.0);
+    CHECK(y == 0.0);
+    const TableStencil stencil = table_stencil(Vec3::Constant(none), 8);
+    for (const std::uint32_t texel : stencil.node) CHECK(texel < 64);
   }
 }
 

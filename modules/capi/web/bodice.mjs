@@ -34,9 +34,9 @@ export function hasVectors() {
 /** Starts the library; `wasm` are the bytes of bodice_wasm.wasm, or of bodice_wasm_plain.wasm where the engine has no
  * vectors. They are read from beside this file if absent. */
 export async function load({wasm} = {}) {
-  const {default: start} = hasVectors() ? await import('./bodice_wasm.mjs') : await import('./bodice_wasm_plain.mjs');
-  const name = hasVectors() ? './bodice_wasm.wasm' : './bodice_wasm_plain.wasm';
-  return new Bodice(await start({wasmBinary: wasm ?? await readWasm(name), printErr() {}}));
+  const [{default: start}, file] = hasVectors() ? [await import('./bodice_wasm.mjs'), './bodice_wasm.wasm']
+                                                : [await import('./bodice_wasm_plain.mjs'), './bodice_wasm_plain.wasm'];
+  return new Bodice(await start({wasmBinary: wasm ?? await readWasm(file), printErr() {}}));
 }
 
 /** Names by number, from 0 until there is no further one. */

@@ -15,7 +15,7 @@ namespace bodice::inline v0_1::binding {
 /// One texel near the skin.
 struct SkinNode {
   std::uint16_t texel = 0;
-  Vec3 position = Vec3::Zero();    ///< of the skin point less the ellipsoid's center
+  Vec3 position = Vec3::Zero();    ///< the skin point less the ellipsoid's center
   Vec3 direction = Vec3::UnitX();  ///< unit direction of its closest point on the ellipsoid
   double height_m = 0.0;           ///< its signed distance to the ellipsoid
   std::vector<std::pair<std::uint16_t, double>> weights;  ///< joints that move it

@@ -47,7 +47,8 @@ struct Reduced {
 engine::Result<void> check_body(const proxy::BodyProxy& proxy, const geometry::TriMesh& skin,
                                 const std::string& file) {
   constexpr std::size_t kSamples = 1000;
-  constexpr double kOther = 0.003;  // of the stature, 5 mm; no tier leaves out a tenth of that
+  // A share of the stature, 5 mm. No tier leaves out a tenth of that of its own skin.
+  constexpr double kOther = 0.003;
   const std::size_t step = std::max<std::size_t>(1, skin.positions.size() / kSamples);
   double sum_m = 0.0;
   std::size_t count = 0;

@@ -87,7 +87,8 @@ void warn_of_thresholds(FitResult& result) {
 
 /// Warns of a proxy of relief that stands far off the skin somewhere, which no tier of its error does.
 void warn_of_lumps(FitResult& result) {
-  constexpr double kLump = 0.015;  // of the stature: 25 mm
+  // A share of the stature, 25 mm: no body of the data folder comes near it.
+  constexpr double kLump = 0.015;
   if (result.proxy.tier() != proxy::Tier::kRelief) return;
   if (!(result.accuracy.gap_m.max > kLump * result.proxy.stature_m())) return;
   const auto worst =
@@ -98,29 +99,6 @@ void warn_of_lumps(FitResult& result) {
                        " mm off the skin, at ", body::name(worst->part), "."),
        "Look at a picture (program: --picture). Tier tight has no lumps; a closed skin without folds in one "
        "another has none, either."});
-}
-
-/// Skins with folds in one another may have tables that make a proxy worse; then it goes without them.
-void drop_worse_tables(const engine::Context& context, const LabeledSkin& skin, Draft& draft,
-                       Measured& measured, std::vector<engine::Warning>& warnings) {
-  constexpr double kDoubtful =
-      0.0015;  // mean gap of the stature, 2.5 mm: skins without folds are below a tenth
-  if (draft.data.relief.empty() || measured.accuracy.gap_m.mean < kDoubtful * skin.stature_m) return;
-  proxy::BodyProxy::Data plain = draft.data;
-  plain.relief.clear();
-  plain.texels.clear();
-  plain.margin_m = 0.0;
-  plain.tier = proxy::Tier::kTight;
-  Measured without = measure(context, plain, skin, *skin.distance, draft.parts);
-  if (without.accuracy.gap_m.mean >= measured.accuracy.gap_m.mean) return;
-  warnings.push_back(
-      {"relief-left-out", "",
-       engine::message("Tables of relief would be ", 1e3 * measured.accuracy.gap_m.mean,
-                       " mm off the skin on average, ellipsoids without them are ",
-                       1e3 * without.accuracy.gap_m.mean, " mm off; the proxy has tier tight."),
-       "A closed skin without folds in one another takes relief."});
-  draft.data = std::move(plain);
-  measured = std::move(without);
 }
 
 void add_warnings(const FitOptions& options, FitResult& result) {
@@ -220,8 +198,6 @@ engine::Result<FitResult> fit_checked(const engine::Context& context, const Labe
   auto& [draft, measured, planned, out_of_time] = *found;
   if (options.target_error_m && draft.data.tier == proxy::Tier::kTight)
     grow_to_target(context, judged, draft.parts, *options.target_error_m, draft.data, measured);
-  std::vector<engine::Warning> warnings;
-  if (options.measure_accuracy) drop_worse_tables(context, judged, draft, measured, warnings);
   draft.data.source_hash = skin_hash(skin.mesh);
   const FittedEllipsoids fitted{draft.data.ellipsoids, std::move(draft.cluster_error_m)};
   auto made = proxy::BodyProxy::make(std::move(draft.data));
@@ -232,7 +208,6 @@ engine::Result<FitResult> fit_checked(const engine::Context& context, const Labe
   result.accuracy = measured.accuracy;
   result.parts = part_fits(context, skin, fitted, measured, draft.parts);
   result.stages = std::move(stages);
-  result.warnings = std::move(warnings);
   if (out_of_time) warn_of_time(options, planned, result);
   add_warnings(options, result);
   return result;

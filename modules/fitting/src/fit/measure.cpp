@@ -68,7 +68,8 @@ bool find_on_normal(const proxy::BodyProxy::Data& proxy, GapProbe& probe, double
 /// lead the steps past each other: then F = 0 is looked for on a line.
 bool settle(const proxy::BodyProxy::Data& proxy, GapProbe& probe, double tolerance_m) {
   constexpr int kSteps = 8;
-  constexpr double kSearched = 0.05;  // to either side, of the stature: as far as tables reach
+  // Tables reach no farther to either side than this share of the stature.
+  constexpr double kSearched = 0.05;
   const Vec3 start = probe.at.point;
   for (int step = 0; step < kSteps; ++step) {
     const proxy::ProxyDistance f = proxy::proxy_distance(proxy, probe.at.point);
@@ -121,7 +122,8 @@ Spread gaps(const std::vector<GapProbe>& probes, const proxy::BodyProxy::Data& p
 /// probe: its surface is not where the ellipsoid's is.
 void measure_lumps(const engine::Context& context, const proxy::BodyProxy::Data& proxy,
                    const LabeledSkin& skin, const geometry::MeshDistance& distance, Measured& measured) {
-  constexpr double kHeights[] = {0.006, 0.015, 0.03};  // of the stature: 10, 25 and 50 mm
+  // Shares of the stature: 10, 25 and 50 mm.
+  constexpr double kHeights[] = {0.006, 0.015, 0.03};
   struct Lump {
     double gap_m = 0.0;
     std::uint32_t owner = 0;

@@ -118,7 +118,7 @@ class Fitting {
     for (double& d : off) d = std::abs(d);
     return in_statures(median(std::move(off)));
   }
-  /// Meters that a unit of the garment's file has, if the file is in `unit_m`, for each that was taken.
+  /// The factor from the unit that the garment was read in to one of `unit_m` meters.
   double scale_of(double unit_m) const { return unit_m / body_.meters_per_unit; }
 
   /// Moves the candidate along the axes that `free` has 1 for, to where its samples lie evenly off the skin,
@@ -196,18 +196,16 @@ engine::Result<std::optional<engine::Warning>> place_garment(const engine::Conte
   if (fitting.empty()) return nothing;
   const Candidate as_is;
   const double nearest_m = fitting.nearest_m(as_is);
-  bool is_worn = fitting.has_size(1.0, kLeastSize) && fitting.on_body(as_is) >= kWorn;
+  const bool is_near = fitting.has_size(1.0, kLeastSize) && fitting.on_body(as_is) >= kWorn;
+  const bool is_worn = is_near && !fitting.is_beside(as_is);
+  if (is_worn && fitting.median_off(as_is) < kClose) return nothing;
+
   std::vector<Candidate> all;
-  if (is_worn && !fitting.is_beside(as_is)) {
-    if (fitting.median_off(as_is) < kClose) return nothing;
-    // In too small a unit a garment shrinks to where it stands between the calves. A larger one may wear it.
-    all = candidates(fitting);
-    if (all.empty() || all.front().on_body < kFound || all.front().scale <= 1.0) return nothing;
-    is_worn = false;
-  } else if (!is_worn) {
-    all = candidates(fitting);
-  }
+  if (is_worn || !is_near) all = candidates(fitting);
   const bool found = !all.empty() && all.front().on_body >= kFound;
+  // In too small a unit a garment shrinks to where it stands between the calves: only a larger one replaces
+  // it.
+  if (is_worn && !(found && all.front().scale > 1.0)) return nothing;
   const bool clear = found && (all.size() < 2 || all[1].on_body < kRival || all[1].scale < all[0].scale);
   std::optional<Candidate> taken;
   if (clear) taken = all.front();

@@ -16,7 +16,8 @@ struct PlacedOn {
   const geometry::MeshDistance& skin;
   const geometry::TriMesh& mesh;  ///< the skin's, meters, y up
   double stature_m = 0.0;
-  double meters_per_unit = 1.0;  ///< of the unit that the garment was taken to be in
+  /// The garment was read in a unit of so many meters, which need not be that of its file.
+  double meters_per_unit = 1.0;
 };
 
 /// Finds unit, axes and position of a garment by where the body is, and changes the mesh. A garment that lies
