@@ -5,7 +5,7 @@
 
 The .cpp needs a C++20 compiler and nothing else. Eigen's headers are in it, under a namespace of its own. Where
 <hwy/highway.h> is found, kernels use the instruction set that the compiler is allowed; else they compute one particle
-at a time. Where <nlohmann/json.hpp> is found, proxies may also be JSON.
+at a time. With -DBODICE_JSON and <nlohmann/json.hpp>, proxies may also be JSON.
 """
 
 import pathlib
@@ -21,7 +21,9 @@ HEADERS_OF_C = ["base", "proxy", "collider", "particles", "exact"]
 # Sources that are whole layers of the frame side; of the others only what these use.
 WHOLE = {"capi": r"/(base|arrays|frame)/(?!highway_runtime)", "collision": r"(?<!kernels_[a-z]{4})\.cpp$",
          "binding": r"/pose/", "proxy": r"/(?!base_pose|proxy_file|proxy_surface|crossed_cells)[a-z_0-9]+\.cpp$"}
-NEVER = r"/(kernels(_[a-z0-9]+)?|tbb_executor|log_sinks|highway_runtime)\.cpp$"
+# Sources of headers that the frame side includes for their types, and functions that it does not call.
+NEVER = (r"/(kernels(_[a-z0-9]+)?|tbb_executor|log_sinks|highway_runtime|proxy_distance|add_things|write_file|"
+         r"proxy_file|base_pose_file|table_warp)\.cpp$")
 # Eigen's own kinds of vectors, processors and back ends: not needed, since nothing here is vectorized by Eigen.
 FOREIGN = r"arch/(?!Default)|GPU|CUDA|HIP|SYCL|MKL|BLAS|LAPACK|misc/(blas|lapack)|Accelerate|openmp|omp\.h"
 
@@ -49,7 +51,7 @@ def sources():
              if not re.search(NEVER, str(file)) and "/whole/" not in str(file)}
     first = {}
     for file, layer in files.items():
-        own = [found[0] for name in includes_of(file) if (found := resolve(name, layer, file))]
+        own = [found[0] for name in includes_of(file) if (found := resolve(name, layer, file)) and found[1] == layer]
         first[file] = own[0] if own else None
     wanted, seen = set(), set()
 
@@ -181,7 +183,7 @@ def source(eigen):
         json = "nlohmann/json.hpp" in texts[file]
         writer.add(f"// -- {file.relative_to(ROOT)}")
         if json:
-            writer.add("#ifdef BODICE_HAS_JSON")
+            writer.add("#ifdef BODICE_JSON")
         for name in clashing:
             writer.add(f"#define {name} {name}_in_{number}")
         writer.add(re.sub(r"^[ \t]*#[ \t]*include.*\n", "", texts[file], flags=re.M))

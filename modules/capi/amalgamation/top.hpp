@@ -19,9 +19,8 @@
 // A program that has an Eigen of its own does not meet this one.
 #define Eigen bodice_eigen
 
-#if __has_include(<nlohmann/json.hpp>) && !defined(BODICE_NO_JSON)
+#ifdef BODICE_JSON  // proxies may be JSON, too, by the library nlohmann/json
 #include <nlohmann/json.hpp>
-#define BODICE_HAS_JSON
 #endif
 
 #if __has_include(<hwy/highway.h>) && !defined(BODICE_NO_HIGHWAY)

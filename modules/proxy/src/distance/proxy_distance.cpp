@@ -224,13 +224,6 @@ ProxyDistance evaluate_at_rest(std::span<const ProxyEllipsoid> ellipsoids,
 
 }  // namespace
 
-ReliefReach relief_reach(double stature_m) {
-  constexpr double kReferenceStature_m = 1.70;
-  constexpr ReliefReach kReference{0.030, 0.030, 0.003};
-  const double scale = stature_m > 0.0 ? stature_m / kReferenceStature_m : 1.0;
-  return {kReference.in_m * scale, kReference.out_m * scale, kReference.blend_m * scale};
-}
-
 ProxyDistance proxy_distance(const BodyProxy& proxy, const Vec3& point) {
   return proxy_distance(proxy.data(), point);
 }

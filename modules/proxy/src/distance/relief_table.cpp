@@ -12,6 +12,13 @@ double sign(double value) {
 
 }  // namespace
 
+ReliefReach relief_reach(double stature_m) {
+  constexpr double kReferenceStature_m = 1.70;
+  constexpr ReliefReach kReference{0.030, 0.030, 0.003};
+  const double scale = stature_m > 0.0 ? stature_m / kReferenceStature_m : 1.0;
+  return {kReference.in_m * scale, kReference.out_m * scale, kReference.blend_m * scale};
+}
+
 std::array<double, 2> octahedral_map(const Vec3& w) {
   const double s = w.cwiseAbs().sum();
   // The center of an ellipsoid that is far away rounds to its own surface, where there is no direction.
