@@ -5,7 +5,7 @@
 
 The .cpp needs a C++20 compiler and nothing else. Eigen's headers are in it, under a namespace of its own. Where
 <hwy/highway.h> is found, kernels use the instruction set that the compiler is allowed; else they compute one particle
-at a time. With -DBODICE_JSON and <nlohmann/json.hpp>, proxies may also be JSON.
+at a time. With -DBODICE_WITH_JSON and <nlohmann/json.hpp>, proxies may also be JSON.
 """
 
 import pathlib
@@ -183,7 +183,7 @@ def source(eigen):
         json = "nlohmann/json.hpp" in texts[file]
         writer.add(f"// -- {file.relative_to(ROOT)}")
         if json:
-            writer.add("#ifdef BODICE_JSON")
+            writer.add("#ifdef BODICE_WITH_JSON")
         for name in clashing:
             writer.add(f"#define {name} {name}_in_{number}")
         writer.add(re.sub(r"^[ \t]*#[ \t]*include.*\n", "", texts[file], flags=re.M))

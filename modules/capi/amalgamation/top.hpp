@@ -19,7 +19,7 @@
 // A program that has an Eigen of its own does not meet this one.
 #define Eigen bodice_eigen
 
-#ifdef BODICE_JSON  // proxies may be JSON, too, by the library nlohmann/json
+#ifdef BODICE_WITH_JSON  // proxies may be JSON, too, by the library nlohmann/json
 #include <nlohmann/json.hpp>
 #endif
 
