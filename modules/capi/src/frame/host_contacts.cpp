@@ -85,15 +85,6 @@ void write_contacts(const engine::Context& context, const EngineContacts& from, 
   });
 }
 
-void translate_contacts(const engine::Context& context, collision::Contact* contacts, std::size_t count,
-                        const double (&origin)[3]) {
-  engine::parallel_for(context, count, kContactsATask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      for (int axis = 0; axis < 3; ++axis)
-        contacts[i].point[axis] = outward(contacts[i].point[axis], origin[axis]);
-  });
-}
-
 bodice_contact as_c(const collision::Contact& contact, const double (&origin)[3]) {
   bodice_contact out;
   out.distance = contact.signed_distance;

@@ -32,10 +32,6 @@ struct EngineContacts {
 
 void write_contacts(const engine::Context& context, const EngineContacts& from, const HostContacts& to);
 
-/// Takes contacts that the engine has written into the host's array from the local frame to the world.
-void translate_contacts(const engine::Context& context, collision::Contact* contacts, std::size_t count,
-                        const double (&origin)[3]);
-
 /// One contact in the form of the interface.
 bodice_contact as_c(const collision::Contact& contact, const double (&origin)[3]);
 

@@ -36,13 +36,13 @@ Outcome local_point(const bodice_collider& collider, const double* point, float 
 
 /// Queries into the host's array of contacts, or through the workspace.
 void query(const bodice_collider& collider, const capi::HostParticles& host,
-           const collision::StridedParticles& particles, const collision::QueryOptions& options,
+           collision::StridedParticles particles, const collision::QueryOptions& options,
            bodice_workspace& workspace, const capi::HostContacts& to) {
   const engine::Context context = collider.context->engine_context();
   if (to.fits_engine()) {
     auto* contacts = reinterpret_cast<collision::Contact*>(to.contact.data);
+    particles.shift_contacts = !host.is_local;
     collider.collider.query(context, particles, {contacts, particles.count}, workspace.engine, options);
-    if (!host.is_local) capi::translate_contacts(context, contacts, particles.count, Origin(collider).xyz);
     return;
   }
   collision::Contact* contacts = workspace.contacts.reserve(particles.count);

@@ -190,6 +190,21 @@ ParticleSequence Collider::Impl::begin_call(const ParticleView& particles, Works
   return {workspace->order.order(), 0, workspace};
 }
 
+namespace {
+
+/// Takes the contacts of one batch, which are in the cache still, into the coordinates of the positions.
+void shift_contacts(const StridedParticles& particles, const ParticleSequence& sequence, std::size_t begin,
+                    std::size_t end, std::span<Contact> contacts) {
+  const std::uint32_t* const index = sequence.from(begin);
+  for (std::size_t i = begin; i < end; ++i) {
+    Contact& contact = contacts[index ? index[i - begin] : i];
+    for (int axis = 0; axis < 3; ++axis)
+      contact.point[axis] = static_cast<float>(double{contact.point[axis]} + particles.origin[axis]);
+  }
+}
+
+}  // namespace
+
 void Collider::Impl::query(const engine::Context& context, const ParticleView& all,
                            std::span<Contact> contacts, const QueryOptions& options,
                            WorkspaceData* workspace) const {
@@ -210,6 +225,7 @@ void Collider::Impl::query(const engine::Context& context, const ParticleView& a
       context, particles, sequence, kBatch,
       [&](std::size_t begin, std::size_t end, const ParticleSequence& some, Nothing&) {
         query_range(particles, begin, end, some, options, contacts);
+        if (particles.strided.shift_contacts) shift_contacts(particles.strided, some, begin, end, contacts);
       },
       [](const Nothing&) {});
 }

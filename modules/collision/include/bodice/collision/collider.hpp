@@ -174,7 +174,7 @@ class Collider {
   void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
              Workspace& workspace, const QueryOptions& options = {}) const;
   /// The same for particles in any other form (strided_particles.hpp), gathered batch by batch. Contacts are
-  /// in the local frame.
+  /// in the local frame, or where StridedParticles::shift_contacts has them.
   void query(const engine::Context& context, const StridedParticles& particles, std::span<Contact> contacts,
              Workspace& workspace, const QueryOptions& options = {}) const;
   Contact query(const float (&local_point)[3], const QueryOptions& options = {}) const noexcept;

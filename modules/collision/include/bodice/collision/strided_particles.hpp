@@ -30,6 +30,8 @@ struct StridedParticles {
   /// Where the local frame begins in the coordinates of `position` and `safe`, meters: Collider::origin() for
   /// coordinates of the world.
   double origin[3] = {0.0, 0.0, 0.0};
+  /// Whether a query's contacts are in the coordinates of `position`, too, and not in the local frame.
+  bool shift_contacts = false;
 };
 
 }  // namespace bodice::collision
