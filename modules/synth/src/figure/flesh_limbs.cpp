@@ -63,10 +63,7 @@ void Flesh::add_arm(const Figure& f, int side) {
   };
   const Region arm = region_of_side(Region::kArmL, side);
   add(arm,
-      {f.joint[index(of_side(Bone::kUpperArmL, side))],
-       axes.along,
-       axes.out,
-       axes.front,
+      {{f.joint[index(of_side(Bone::kUpperArmL, side))], axes.along, axes.out, axes.front},
        {row(0.0, .0265, .031, .032, .25), row(0.2 * upper, .0305, .031, .034, .30),
         row(0.5 * upper, .027, .0275, .029, .35), row(0.8 * upper, .0235, .0235, .0245, .32),
         row(upper, .0225, .0225, .0235, .25), row(upper + 0.25 * lower, .0235, .0245, .0235, .25),
@@ -79,10 +76,7 @@ void Flesh::add_arm(const Figure& f, int side) {
   const double hand = f.p.hand, half = palm_half_width(f);
   const double pad = 1.0 + 0.2 * std::max(f.fat, -0.5);
   add(arm,
-      {wrist,
-       axes.along,
-       axes.out,
-       axes.front,
+      {{wrist, axes.along, axes.out, axes.front},
        {{0.02 * hand, .095 * hand * pad, 0.72 * half, 0.72 * half, 0, 0},
         {0.2 * hand, .1 * hand * pad, 0.95 * half, 0.9 * half, 0, 0},
         {0.4 * hand, .085 * hand * pad, 1.0 * half, 0.98 * half, 0, 0},
@@ -95,10 +89,7 @@ void Flesh::add_arm(const Figure& f, int side) {
     const Digit digit = digit_of(f, side, d);
     const double r = digit.radius, l = digit.length;
     add(digit_region(side, d),
-        {digit.base,
-         digit.along,
-         digit.out,
-         digit.front,
+        {{digit.base, digit.along, digit.out, digit.front},
          {{-0.05 * l, 1.05 * r, 1.05 * r, 1.05 * r, 0, 0},
           {0.5 * l, 0.98 * r, 0.98 * r, 0.98 * r, 0, 0},
           {l - r, 0.85 * r, 0.85 * r, 0.85 * r, 0, 0}},
@@ -118,10 +109,7 @@ void Flesh::add_leg(const Figure& f, int side) {
   };
   const Region leg = region_of_side(Region::kLegL, side);
   add(leg,
-      {f.joint[index(of_side(Bone::kThighL, side))],
-       axes.along,
-       axes.out,
-       axes.front,
+      {{f.joint[index(of_side(Bone::kThighL, side))], axes.along, axes.out, axes.front},
        {row(-0.01, .046, .053, .050, .000, .40), row(0.24 * thigh, .052, .053, .051, .002, .50),
         row(0.5 * thigh, .046, .046, .045, .006, .50), row(0.75 * thigh, .038, .039, .037, .008, .40),
         row(thigh, .0315, .034, .032, .006, .25), row(thigh + 0.13 * calf, .0300, .0310, .0325, .000, .25),
@@ -142,10 +130,7 @@ void Flesh::add_leg(const Figure& f, int side) {
   // v points up: `front` is the instep's height above the axis, `back` the sole's depth below it.
   const double axis = 0.30 * h;
   add(leg,
-      {Vec3(ankle.x(), sole + axis, ankle.z()),
-       forward,
-       across,
-       Vec3::UnitY(),
+      {{Vec3(ankle.x(), sole + axis, ankle.z()), forward, across, Vec3::UnitY()},
        {{-0.15 * l, .125 * w, 0.85 * h, axis, 0, 0},
         {0.05 * l, .14 * w, 0.85 * h, axis, 0, 0},
         {0.28 * l, .165 * w, 0.62 * h, axis, 0, 0},

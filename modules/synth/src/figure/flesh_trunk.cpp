@@ -56,7 +56,7 @@ std::vector<Section> trunk_sections(const Figure& f) {
 }
 
 Loft blob(const Vec3& center, double x, double up, double front, double back) {
-  return {center, Vec3::UnitY(), Vec3::UnitX(), Vec3::UnitZ(), {{0.0, x, front, back, 0.0, 0.0}}, up, up};
+  return {{center, Vec3::UnitY(), Vec3::UnitX(), Vec3::UnitZ()}, {{0.0, x, front, back, 0.0, 0.0}}, up, up};
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ Loft blob(const Vec3& center, double x, double up, double front, double back) {
 void Flesh::add_trunk(const Figure& f) {
   const body::Proportions& p = f.p;
   const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
-  add(Region::kTrunk, {Vec3(0, 0, -0.004), y, x, z, trunk_sections(f), 0.03, 0.012, 0.25}, 0.0);
+  add(Region::kTrunk, {{Vec3(0, 0, -0.004), y, x, z}, trunk_sections(f), 0.03, 0.012, 0.25}, 0.0);
   const double fat = std::max(f.fat, -0.3);
   if (f.pregnant)
     add(Region::kTrunk, blob({0.0, p.waist_height - 0.012, 0.035}, 0.068, 0.085, 0.075, 0.04), 0.03);
@@ -74,10 +74,7 @@ void Flesh::add_trunk(const Figure& f) {
     const double r = 0.026 * (1.0 + 0.25 * fat), length = (outer - inner).norm();
     const Vec3 along = (outer - inner) / length, front = (z - z.dot(along) * along).normalized();
     add(Region::kTrunk,
-        {inner,
-         along,
-         front.cross(along),
-         front,
+        {{inner, along, front.cross(along), front},
          {{0.0, 0.9 * r, r, r, 0, 0}, {length, r, r, r, 0, 0}},
          r,
          r},
@@ -112,10 +109,7 @@ void Flesh::add_head(const Figure& f) {
   const Vec3 along = (top - foot).normalized();
   const double length = (top - foot).norm();
   add(Region::kHead,
-      {foot,
-       along,
-       x,
-       along.cross(x).z() > 0 ? Vec3(along.cross(x)) : Vec3(-along.cross(x)),
+      {{foot, along, x, along.cross(x).z() > 0 ? Vec3(along.cross(x)) : Vec3(-along.cross(x))},
        {{0.0, 1.15 * neck, neck, 1.1 * neck, 0, 0},
         {0.5 * length, neck, neck, neck, 0, 0},
         {length, neck, neck, neck, 0, 0}},
@@ -127,10 +121,7 @@ void Flesh::add_head(const Figure& f) {
     return {chin + t * hl, g * share * side, g * front, g * back, 0.0, 0.0};
   };
   add(Region::kHead,
-      {Vec3(0, 0, 0.008),
-       Vec3::UnitY(),
-       x,
-       z,
+      {{Vec3(0, 0, 0.008), Vec3::UnitY(), x, z},
        {row(0.03, .0215, .049, .018), row(0.14, .0325, .0555, .034), row(0.32, .0405, .0575, .046),
         row(0.48, .0445, .0575, .0535), row(0.6, .0455, .0575, .056), row(0.68, .0445, .0555, .0545)},
        0.035 * hl,

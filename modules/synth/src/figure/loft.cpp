@@ -23,15 +23,9 @@ double monotone_slope(double before, double after, double h_before, double h_aft
 
 }  // namespace
 
-Loft::Loft(const Vec3& origin, const Vec3& along, const Vec3& u, const Vec3& v, std::vector<Section> sections,
-           double near_cap, double far_cap, double squareness)
-    : origin_(origin),
-      along_(along),
-      u_(u),
-      v_(v),
-      near_cap_(near_cap),
-      far_cap_(far_cap),
-      squareness_(squareness) {
+Loft::Loft(const LoftFrame& frame, std::vector<Section> sections, double near_cap, double far_cap,
+           double squareness)
+    : frame_(frame), near_cap_(near_cap), far_cap_(far_cap), squareness_(squareness) {
   if (sections.size() == 1) {  // two knots close together, so that one code path suffices
     sections.push_back(sections[0]);
     sections[1].s += 1e-9;
@@ -69,7 +63,7 @@ void Loft::fit_cubics(const std::vector<Section>& sections) {
 
 void Loft::find_bound(const std::vector<Section>& sections) {
   const double low = knots_.front() - near_cap_, high = knots_.back() + far_cap_;
-  bound_center_ = origin_ + 0.5 * (low + high) * along_;
+  bound_center_ = frame_.origin + 0.5 * (low + high) * frame_.along;
   double widest = 0.0;
   for (const Section& c : sections) {
     const double reach_u = c.side + std::abs(c.u), reach_v = std::max(c.front, c.back) + std::abs(c.v);
@@ -89,12 +83,12 @@ Loft::Row Loft::row_at(double s) const {
 }
 
 double Loft::value(const Vec3& p) const {
-  const Vec3 q = p - origin_;
-  const double s = q.dot(along_);
+  const Vec3 q = p - frame_.origin;
+  const double s = q.dot(frame_.along);
   const double inner = std::clamp(s, knots_.front(), knots_.back());
   const Row row = row_at(inner);
   const double beyond = s - inner;
-  const double x = q.dot(u_) - row[3], y = q.dot(v_) - row[4];
+  const double x = q.dot(frame_.u) - row[3], y = q.dot(frame_.v) - row[4];
   const double nx = x / row[0], ny = y / (y > 0.0 ? row[1] : row[2]);
   const double nz = beyond / (beyond > 0.0 ? far_cap_ : near_cap_);
   const double x2 = nx * nx, y2 = ny * ny, z2 = nz * nz;

@@ -18,19 +18,25 @@ struct Section {
   double u = 0.0, v = 0.0;
 };
 
+/// The axis of a loft, and the directions that its sections are measured in. The three are orthonormal.
+struct LoftFrame {
+  Vec3 origin;  ///< where s is zero
+  Vec3 along, u, v;
+};
+
 class Loft {
  public:
-  /// Makes a loft. `along`, `u` and `v` are orthonormal, and the sections are sorted by s; a single section
-  /// makes an ellipsoid. The ends are rounded over `near_cap` and `far_cap`. `squareness` 0 gives ellipses, 1
-  /// fourth-power curves with rounder corners.
-  Loft(const Vec3& origin, const Vec3& along, const Vec3& u, const Vec3& v, std::vector<Section> sections,
-       double near_cap, double far_cap, double squareness = 0.0);
+  /// Makes a loft. The sections are sorted by s; a single section makes an ellipsoid. The ends are rounded
+  /// over `near_cap` and `far_cap`. `squareness` 0 gives ellipses, 1 fourth-power curves with rounder
+  /// corners.
+  Loft(const LoftFrame& frame, std::vector<Section> sections, double near_cap, double far_cap,
+       double squareness = 0.0);
 
   /// Approximately the distance to the surface, negative inside. It is C1 except on the axis.
   double value(const Vec3& p) const;
 
   /// The coordinate of p along the axis, not clamped.
-  double along_of(const Vec3& p) const { return (p - origin_).dot(along_); }
+  double along_of(const Vec3& p) const { return (p - frame_.origin).dot(frame_.along); }
 
   const Vec3& bound_center() const { return bound_center_; }
   double bound_radius() const { return bound_radius_; }
@@ -41,7 +47,7 @@ class Loft {
   void fit_cubics(const std::vector<Section>& sections);
   void find_bound(const std::vector<Section>& sections);
 
-  Vec3 origin_, along_, u_, v_;
+  LoftFrame frame_;
   double near_cap_, far_cap_, squareness_;
   std::vector<double> knots_;
   std::vector<std::array<Row, 4>> cubics_;  // one a pair of knots, in powers of (s - knot)
