@@ -78,8 +78,7 @@ void TableScratch::reserve(int nodes) {
 }
 
 void follow(const RestTable& rest, const CarriedEllipsoid& carried, const TableReach& reach,
-            TableScratch& scratch, proxy::ReliefTable& table, proxy::ReliefTexel* texels,
-            std::uint8_t* burial) {
+            TableScratch& scratch, const FollowedTable& posed) {
   const int n = rest.table.nodes_per_side, count = n * n;
   collect(rest, count, scratch);
   Resampling to;
@@ -94,13 +93,13 @@ void follow(const RestTable& rest, const CarriedEllipsoid& carried, const TableR
     to.per_step = static_cast<float>(1.0 / (proxy::kBurialWeight * reach.burial_step_m));
   find_shifts(to, scratch);
   resample(to, rest.burial, scratch);
-  std::copy_n(scratch.burial.begin(), count, burial);
+  std::copy_n(scratch.burial.begin(), count, posed.burial);
   const ByteRange h{to.h.least(), to.h.most() - to.h.least()}, a{to.a.least(), to.a.most() - to.a.least()};
-  to_bytes(scratch.h.data(), h, scratch.a.data(), a, count, texels);
-  table.h_offset_m = h.low;
-  table.h_scale_m = h.size;
-  table.a_offset = a.low;
-  table.a_scale = a.size;
+  to_bytes(scratch.h.data(), h, scratch.a.data(), a, count, posed.texels);
+  posed.table.h_offset_m = h.low;
+  posed.table.h_scale_m = h.size;
+  posed.table.a_offset = a.low;
+  posed.table.a_scale = a.size;
 }
 
 }  // namespace bodice::binding

@@ -44,6 +44,13 @@ struct RestTable {
   const std::uint16_t* followers;  ///< the skin node that each texel changes with
 };
 
+/// The same table in a pose, to be written: as many texels as at rest.
+struct FollowedTable {
+  proxy::ReliefTable& table;  ///< its scales
+  proxy::ReliefTexel* texels;
+  std::uint8_t* burial;
+};
+
 /// The lengths that heights and burial are measured by.
 struct TableReach {
   double out_m = 0.0;          ///< how far relief reaches outward at rest
@@ -56,7 +63,6 @@ struct TableReach {
 /// which shift(w) = change(V w - change(V w)). Burial is that of the texel nearest to u, and more where
 /// growth(u) is large (yield.hpp). Allocates nothing.
 void follow(const RestTable& rest, const CarriedEllipsoid& carried, const TableReach& reach,
-            TableScratch& scratch, proxy::ReliefTable& table, proxy::ReliefTexel* texels,
-            std::uint8_t* burial);
+            TableScratch& scratch, const FollowedTable& posed);
 
 }  // namespace bodice::binding

@@ -135,12 +135,11 @@ void Poser::Impl::write_table(std::size_t k, const CarriedEllipsoid& carried, Ta
   if (!all_follow_nodes[k]) std::fill_n(room.changes.begin(), count, Change{});
   const auto terms = terms_of(k);
   const std::span own = std::span(maps).subspan(12 * std::size_t{binding.first_term[k]}, 12 * terms.size());
-  const double step_m = double{binding.step_m[k]};
-  posed_maps(bound.ellipsoids()[k].shape.center, step_m, terms, joints.skinning(), carried, own);
-  find_changes(binding, binding.first_bundle[k], binding.first_bundle[k + 1], step_m, carried, own.data(),
-               room.changes.data());
+  posed_maps(bound.ellipsoids()[k].shape.center, double{binding.step_m[k]}, terms, joints.skinning(), carried,
+             own);
+  find_changes(binding, k, carried, own.data(), room.changes.data());
   follow(rest, carried, {proxy::relief_reach(bound.stature_m()).out_m, double{posed.burial_step_m}}, room,
-         posed.relief[k], posed.texels.data() + table.first_texel, posed.burial.data() + table.first_texel);
+         {posed.relief[k], posed.texels.data() + table.first_texel, posed.burial.data() + table.first_texel});
 }
 
 engine::Result<void> Poser::Impl::add(std::shared_ptr<const proxy::BasePose> base, int blended, bool stays) {

@@ -148,10 +148,11 @@ void posed_maps(const geometry::Vec3& rest_center, double step_m, std::span<cons
   }
 }
 
-void find_changes(const proxy::Binding& binding, std::size_t first, std::size_t last, double step_m,
-                  const CarriedEllipsoid& carried, const float* maps, Change* changes) {
-  const UnitEllipsoid unit = unit_ellipsoid(carried, step_m);
-  for (std::size_t i = first; i < last; ++i) {
+void find_changes(const proxy::Binding& binding, std::size_t ellipsoid, const CarriedEllipsoid& carried,
+                  const float* maps, Change* changes) {
+  const UnitEllipsoid unit = unit_ellipsoid(carried, double{binding.step_m[ellipsoid]});
+  const std::size_t last = binding.first_bundle[ellipsoid + 1];
+  for (std::size_t i = binding.first_bundle[ellipsoid]; i < last; ++i) {
     const proxy::SkinBundle& bundle = binding.bundles[i];
     Lanes at[3], w[3], distance, change[4];
     skin_bundle(bundle, binding.entries.data() + binding.first_entry[i],

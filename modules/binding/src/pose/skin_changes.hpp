@@ -19,8 +19,9 @@ void posed_maps(const geometry::Vec3& rest_center, double step_m, std::span<cons
                 std::span<const proxy::JointMatrix> skinning, const CarriedEllipsoid& carried,
                 std::span<float> maps);
 
-/// Bundles [first, last) of one ellipsoid: writes changes[texel] of each node. Allocates nothing.
-void find_changes(const proxy::Binding& binding, std::size_t first, std::size_t last, double step_m,
-                  const CarriedEllipsoid& carried, const float* maps, Change* changes);
+/// Writes changes[texel] of each skin node of an ellipsoid. `maps` are those of posed_maps(). Allocates
+/// nothing.
+void find_changes(const proxy::Binding& binding, std::size_t ellipsoid, const CarriedEllipsoid& carried,
+                  const float* maps, Change* changes);
 
 }  // namespace bodice::binding

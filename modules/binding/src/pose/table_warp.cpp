@@ -63,10 +63,8 @@ void TableWarp::Impl::carry_one(std::size_t k) {
   const std::size_t n = bound.relief()[k].nodes_per_side;
   changes[k].resize(n * n);
   std::vector<float> maps(12 * terms.size());
-  const double step_m = double{binding.step_m[k]};
-  posed_maps(rest.center, step_m, terms, joints.skinning(), carried[k], maps);
-  find_changes(binding, binding.first_bundle[k], binding.first_bundle[k + 1], step_m, carried[k], maps.data(),
-               changes[k].data());
+  posed_maps(rest.center, double{binding.step_m[k]}, terms, joints.skinning(), carried[k], maps);
+  find_changes(binding, k, carried[k], maps.data(), changes[k].data());
   const std::uint16_t* const followers = binding.followers.data() + binding.first_follower[k];
   for (std::size_t i = 0; i < n * n; ++i) changes[k][i] = changes[k][followers[i]];
   find_shifts(k);
