@@ -29,9 +29,10 @@ struct Points {
     z.push_back(static_cast<float>(p.z()));
   }
   Vec3 at(std::size_t i) const { return {double{x[i]}, double{y[i]}, double{z[i]}}; }
+  fitting::PointArrays arrays() const { return {x.size(), x.data(), y.data(), z.data()}; }
   void measure(const geometry::Ellipsoid& e) {
     d.resize(x.size());
-    fitting::batch_distances(FloatEllipsoid(e), x.size(), x.data(), y.data(), z.data(), d.data());
+    fitting::batch_distances(FloatEllipsoid(e), arrays(), d.data());
   }
 };
 
@@ -98,9 +99,8 @@ TEST_CASE("closest point batch: the tangent at a point lies below the distance e
     for (int i = 0; i < 37; ++i) points.add(anywhere());
     std::array<std::vector<float>, 4> found;
     for (auto& values : found) values.resize(points.x.size());
-    fitting::batch_normals(FloatEllipsoid(e), points.x.size(), points.x.data(), points.y.data(),
-                           points.z.data(), found[0].data(), found[1].data(), found[2].data(),
-                           found[3].data());
+    fitting::batch_normals(FloatEllipsoid(e), points.arrays(), found[0].data(), found[1].data(),
+                           found[2].data(), found[3].data());
     points.measure(e);
     for (std::size_t i = 0; i < points.x.size(); ++i) {
       CHECK(double{found[0][i]} == doctest::Approx(double{points.d[i]}).epsilon(1e-5));

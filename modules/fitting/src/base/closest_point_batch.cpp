@@ -81,17 +81,18 @@ FloatEllipsoid::FloatEllipsoid(const geometry::Ellipsoid& e)
   least_squared = smaller(squared[0], smaller(squared[1], squared[2]));
 }
 
-BODICE_CLONES void batch_distances(const FloatEllipsoid& ellipsoid, std::size_t n, const float* __restrict x,
-                                   const float* __restrict y, const float* __restrict z,
+BODICE_CLONES void batch_distances(const FloatEllipsoid& ellipsoid, const PointArrays& points,
                                    float* __restrict d) {
   const FloatEllipsoid e = ellipsoid;
+  const auto [n, x, y, z] = points;
   for (std::size_t i = 0; i < n; ++i) d[i] = closest(e, x[i], y[i], z[i]).d;
 }
 
-BODICE_CLONES void batch_normals(const FloatEllipsoid& ellipsoid, std::size_t n, const float* __restrict x,
-                                 const float* __restrict y, const float* __restrict z, float* __restrict d,
-                                 float* __restrict nx, float* __restrict ny, float* __restrict nz) {
+BODICE_CLONES void batch_normals(const FloatEllipsoid& ellipsoid, const PointArrays& points,
+                                 float* __restrict d, float* __restrict nx, float* __restrict ny,
+                                 float* __restrict nz) {
   const FloatEllipsoid e = ellipsoid;
+  const auto [n, x, y, z] = points;
   for (std::size_t i = 0; i < n; ++i) {
     const Closest f = closest(e, x[i], y[i], z[i]);
     d[i] = f.d;
@@ -101,13 +102,12 @@ BODICE_CLONES void batch_normals(const FloatEllipsoid& ellipsoid, std::size_t n,
   }
 }
 
-BODICE_CLONES void batch_directions(const FloatEllipsoid& ellipsoid, std::size_t n, const float* __restrict x,
-                                    const float* __restrict y, const float* __restrict z, float* __restrict d,
+BODICE_CLONES void batch_directions(const FloatEllipsoid& ellipsoid, const PointArrays& points,
                                     float* __restrict wx, float* __restrict wy, float* __restrict wz) {
   const FloatEllipsoid e = ellipsoid;
+  const auto [n, x, y, z] = points;
   for (std::size_t i = 0; i < n; ++i) {
     const Closest f = closest(e, x[i], y[i], z[i]);
-    d[i] = f.d;
     wx[i] = f.wx;
     wy[i] = f.wy;
     wz[i] = f.wz;

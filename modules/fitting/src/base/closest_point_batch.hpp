@@ -1,9 +1,9 @@
 // Closest points of many points on one ellipsoid at a fixed cost: the inner loop of the anytime tiers.
 #pragma once
 
-#include <cstddef>
-
 #include <bodice/geometry/ellipsoid.hpp>
+
+#include "base/point_arrays.hpp"
 
 namespace bodice::inline v0_1::fitting {
 
@@ -21,18 +21,15 @@ struct FloatEllipsoid {
   explicit FloatEllipsoid(const geometry::Ellipsoid& e);
 };
 
-/// Writes the signed distance d[i] of each of n points: within 1e-5 of the largest radius near the surface;
-/// deep inside it may be too shallow. Coordinates have to be of the order of one (see Scaling). No arrays
-/// overlap.
-void batch_distances(const FloatEllipsoid& e, std::size_t n, const float* x, const float* y, const float* z,
-                     float* d);
+/// Writes the signed distance d[i] of each point: within 1e-5 of the largest radius near the surface; deep
+/// inside it may be too shallow. Coordinates have to be of the order of one (see Scaling). No arrays overlap.
+void batch_distances(const FloatEllipsoid& e, const PointArrays& points, float* d);
 
 /// Writes distances as batch_distances(), and the outward unit normals at the closest points.
-void batch_normals(const FloatEllipsoid& e, std::size_t n, const float* x, const float* y, const float* z,
-                   float* d, float* nx, float* ny, float* nz);
+void batch_normals(const FloatEllipsoid& e, const PointArrays& points, float* d, float* nx, float* ny,
+                   float* nz);
 
-/// Writes distances as batch_distances(), and the closest points as unit vectors w: c + R (r o w).
-void batch_directions(const FloatEllipsoid& e, std::size_t n, const float* x, const float* y, const float* z,
-                      float* d, float* wx, float* wy, float* wz);
+/// Writes the closest points as unit vectors w: c + R (r o w).
+void batch_directions(const FloatEllipsoid& e, const PointArrays& points, float* wx, float* wy, float* wz);
 
 }  // namespace bodice::fitting

@@ -99,8 +99,8 @@ void Lloyd::assign_chunk(std::size_t chunk, Scratch& scratch, std::vector<std::u
   const std::size_t first = chunk * kChunk, n = std::min(kChunk, of_point_.size() - first);
   std::array<float, kChunk> distance;
   std::array<Index, kChunk> nearest;
-  nearest_centers(n, &local_[0][first], &local_[1][first], &local_[2][first], scratch.candidates.size(),
-                  scratch.candidates.data(), placed_.data(), distance.data(), nearest.data());
+  nearest_centers({n, &local_[0][first], &local_[1][first], &local_[2][first]}, scratch.candidates,
+                  placed_.data(), distance.data(), nearest.data());
   std::uint32_t farthest =
       0;  // the bits of a float: vector code compares them faster, as no distance is negative
   Index differ = 0;

@@ -4,10 +4,12 @@
 
 namespace bodice::inline v0_1::fitting {
 
-BODICE_CLONES void nearest_centers(std::size_t n, const float* __restrict x, const float* __restrict y,
-                                   const float* __restrict z, std::size_t count,
-                                   const std::uint32_t* __restrict which, const float* __restrict centers_xyz,
-                                   float* __restrict distance, std::uint32_t* __restrict nearest) {
+BODICE_CLONES void nearest_centers(const PointArrays& points, std::span<const std::uint32_t> candidates,
+                                   const float* centers_xyz, float* __restrict distance,
+                                   std::uint32_t* __restrict nearest) {
+  const std::size_t n = points.count, count = candidates.size();
+  const std::uint32_t* const which = candidates.data();
+  const float *const x = points.x, *const y = points.y, *const z = points.z;
   for (std::size_t i = 0; i < n; ++i) distance[i] = __builtin_inff(), nearest[i] = 0;
   for (std::size_t m = 0; m < count; ++m) {
     const std::uint32_t k = which[m];

@@ -29,7 +29,7 @@ void add_nearest(const Scaling& scaling, std::span<const geometry::Vec3> positio
   std::vector<float> least(n, std::numeric_limits<float>::infinity()), d(n);
   nearest.resize(positions.size(), 0);
   for (std::uint32_t k = 0; k < ellipsoids.size(); ++k) {
-    batch_distances(FloatEllipsoid(scaling.in(ellipsoids[k])), n, at[0].data(), at[1].data(), at[2].data(),
+    batch_distances(FloatEllipsoid(scaling.in(ellipsoids[k])), {n, at[0].data(), at[1].data(), at[2].data()},
                     d.data());
     for (std::size_t i = 0; i < n; ++i)
       if (d[i] < least[i]) least[i] = d[i], nearest[known + i] = k;

@@ -67,52 +67,67 @@ struct NearTable {
   std::uint32_t ellipsoid;
 };
 
-/// Finds the terms of one sample among the candidates; `near` is scratch.
-void find_sample_terms(const ReliefSample& sample, std::uint32_t index, std::span<const Candidate> candidates,
-                       std::span<const proxy::ProxyEllipsoid> ellipsoids, const proxy::ReliefReach& reach,
-                       std::vector<NearTable>& near, Batch& batch, double& target_m) {
-  near.clear();
+/// Finds the terms of blocks of neighboring samples, which share their candidates.
+class TermSearch {
+ public:
+  /// Both must outlive this object.
+  TermSearch(std::span<const proxy::ProxyEllipsoid> ellipsoids, const proxy::ReliefReach& reach)
+      : ellipsoids_(ellipsoids), reach_(reach) {}
+
+  /// Adds the terms of a block, the first sample of which has the index `first`, and writes the sums that
+  /// they should have.
+  void find(std::span<const ReliefSample> block, std::size_t first, Batch& batch, std::span<double> target_m);
+
+ private:
+  double find_sample(const ReliefSample& sample, std::uint32_t index, Batch& batch);
+
+  std::span<const proxy::ProxyEllipsoid> ellipsoids_;
+  const proxy::ReliefReach& reach_;
+  std::vector<Candidate> candidates_;  ///< of the current block
+  std::vector<NearTable> near_;        ///< to the current sample
+};
+
+/// Adds the terms of one sample, and returns the sum that they should have.
+double TermSearch::find_sample(const ReliefSample& sample, std::uint32_t index, Batch& batch) {
+  near_.clear();
   double least = std::numeric_limits<double>::infinity();
-  for (const Candidate& c : candidates) {
-    const geometry::Ellipsoid& e = ellipsoids[c.ellipsoid].shape;
-    const double enough = least + reach.blend_m;
+  for (const Candidate& c : candidates_) {
+    const geometry::Ellipsoid& e = ellipsoids_[c.ellipsoid].shape;
+    const double enough = least + reach_.blend_m;
     if (lower_bound(e, sample.point, enough) > enough) continue;
-    near.push_back({geometry::closest_point(e, sample.point), c.ellipsoid});
-    least = std::min(least, near.back().closest.signed_distance);
+    near_.push_back({geometry::closest_point(e, sample.point), c.ellipsoid});
+    least = std::min(least, near_.back().closest.signed_distance);
   }
-  const bool deep = least < -reach.in_m && sample.signed_distance_m < -0.5 * reach.in_m;
-  if (deep) near.clear();  // the proxy and the skin agree that it is deep inside: there is nothing to correct
+  const bool deep = least < -reach_.in_m && sample.signed_distance_m < -0.5 * reach_.in_m;
+  if (deep)
+    near_.clear();  // the proxy and the skin agree that it is deep inside: there is nothing to correct
   const auto weight = [&](const NearTable& n) {
-    const double ramp = std::max(0.0, 1.0 - (n.closest.signed_distance - least) / reach.blend_m);
+    const double ramp = std::max(0.0, 1.0 - (n.closest.signed_distance - least) / reach_.blend_m);
     return ramp * ramp;
   };
   double sum = 0.0;
-  for (const NearTable& n : near) sum += weight(n);
-  target_m = -sample.signed_distance_m;
-  for (const NearTable& n : near) {
+  for (const NearTable& n : near_) sum += weight(n);
+  double target_m = -sample.signed_distance_m;
+  for (const NearTable& n : near_) {
     const double share = weight(n) / sum, d = n.closest.signed_distance;
     if (!(share > 0.0)) continue;
-    const geometry::Ellipsoid& e = ellipsoids[n.ellipsoid].shape;
+    const geometry::Ellipsoid& e = ellipsoids_[n.ellipsoid].shape;
     const Vec3 w = (e.axes.transpose() * (n.closest.point - e.center)).cwiseQuotient(e.radii).normalized();
-    const double factor = std::clamp(d, -reach.in_m, reach.out_m) / reach.out_m;
+    const double factor = std::clamp(d, -reach_.in_m, reach_.out_m) / reach_.out_m;
     target_m += share * d;
     batch.found.push_back(
         {n.ellipsoid, {index, static_cast<float>(share), static_cast<float>(factor), w.cast<float>()}});
   }
+  return target_m;
 }
 
-/// Finds the terms of a block of neighboring samples.
-void find_block_terms(std::span<const ReliefSample> samples, std::size_t first,
-                      std::span<const proxy::ProxyEllipsoid> ellipsoids, const proxy::ReliefReach& reach,
-                      Batch& batch, std::span<double> target_m) {
+void TermSearch::find(std::span<const ReliefSample> block, std::size_t first, Batch& batch,
+                      std::span<double> target_m) {
   geometry::Box box;
-  for (const ReliefSample& s : samples) box.extend(s.point);
-  const std::vector<Candidate> candidates =
-      candidates_in(ellipsoids, box.center(), 0.5 * box.size().norm(), reach.blend_m);
-  std::vector<NearTable> near;
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    find_sample_terms(samples[i], static_cast<std::uint32_t>(first + i), candidates, ellipsoids, reach, near,
-                      batch, target_m[i]);
+  for (const ReliefSample& s : block) box.extend(s.point);
+  candidates_ = candidates_in(ellipsoids_, box.center(), 0.5 * box.size().norm(), reach_.blend_m);
+  for (std::size_t i = 0; i < block.size(); ++i)
+    target_m[i] = find_sample(block[i], static_cast<std::uint32_t>(first + i), batch);
 }
 
 /// Groups the terms of all tasks by ellipsoid.
@@ -149,10 +164,10 @@ ReliefTerms find_terms(const engine::Context& context, std::span<const ReliefSam
   result.signed_distance_m.resize(samples.size());
   const std::span<double> target(result.target_m);
   engine::parallel_for(context, samples.size(), kReliefGrain, [&](std::size_t begin, std::size_t end) {
+    TermSearch search(ellipsoids, reach);
     for (std::size_t i = begin; i < end; i += kBlock) {
       const std::size_t count = std::min(kBlock, end - i);
-      find_block_terms(samples.subspan(i, count), i, ellipsoids, reach, batches[begin / kReliefGrain],
-                       target.subspan(i, count));
+      search.find(samples.subspan(i, count), i, batches[begin / kReliefGrain], target.subspan(i, count));
     }
     for (std::size_t i = begin; i < end; ++i) {
       result.weight[i] = samples[i].weight;

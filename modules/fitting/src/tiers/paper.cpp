@@ -25,15 +25,16 @@ void report_clusters(const std::vector<FittedRegion>& fitted, const Thresholds& 
   draft.mu = given.given() ? given : worst;
 }
 
-engine::Result<std::vector<FittedRegion>> refine_regions(const engine::Context& context, const Items& items,
-                                                         const std::vector<Region>& regions,
+engine::Result<std::vector<FittedRegion>> refine_regions(const engine::Context& context,
+                                                         const RegionItems& items,
                                                          const RefineOptions& refine, const Thresholds& mu,
                                                          int count, const FitOptions& options) {
+  const std::vector<Region>& regions = items.regions;
   RegionTasks tasks{.verb = "refine"};
   tasks.parts = options.parts;
   tasks.on_part = options.on_part;
   tasks.fit = [&](const engine::Context& inner, const Region& region, int share) {
-    Refinement refinement(inner, items, region, refine);
+    Refinement refinement(inner, items.all, region, refine);
     refinement.run(region.torso ? mu.torso_m : mu.limbs_m, static_cast<std::size_t>(share));
     FittedRegion fitted;
     for (const Cluster& c : refinement.clusters()) {
@@ -59,23 +60,23 @@ engine::Result<std::vector<FittedRegion>> refine_regions(const engine::Context& 
     tasks.on_part = options.on_part;
   }
   tasks.share = [&](const engine::Context& inner) {
-    return allocate_ellipsoids(inner, items, regions, count);
+    return allocate_ellipsoids(inner, items.all, regions, count);
   };
   return run_region_tasks(context, regions, tasks);
 }
 
 engine::Result<Draft> fit_paper(const engine::Context& context, const LabeledSkin& skin,
                                 const FitOptions& options, int count) {
-  const Items items = vertex_items(skin);
-  const std::vector<Region> regions = make_regions(items, count);
+  RegionItems items{.all = vertex_items(skin), .regions = {}};
+  items.regions = make_regions(items.all, count);
   RefineOptions refine = refine_options(skin.stature_m);
   refine.reclassify = options.reclassify_points;
   const Thresholds mu{options.mu_torso_m.value_or(0.0), options.mu_limbs_m.value_or(0.0)};
-  const auto fitted = refine_regions(context, items, regions, refine, mu, count, options);
+  const auto fitted = refine_regions(context, items, refine, mu, count, options);
   if (!fitted) return fitted.error();
   Draft draft;
   draft.data.tier = proxy::Tier::kPaper;
-  draft.parts = fitted_parts(regions, options.parts);
+  draft.parts = fitted_parts(items.regions, options.parts);
   report_clusters(*fitted, mu, draft);
   for (const FittedRegion& f : *fitted)
     draft.data.ellipsoids.insert(draft.data.ellipsoids.end(), f.ellipsoids.begin(), f.ellipsoids.end());

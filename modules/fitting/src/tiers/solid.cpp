@@ -154,9 +154,10 @@ InteriorColumns columns_of(const LabeledSkin& skin) {
 
 /// Fits all regions. If `columns` is not null, they are found while the skin is sampled.
 engine::Result<std::vector<FittedRegion>> cover_regions(const engine::Context& context,
-                                                        const LabeledSkin& skin, const Items& items,
-                                                        const std::vector<Region>& regions, int count,
-                                                        const FitOptions& options, InteriorColumns* columns) {
+                                                        const LabeledSkin& skin, const RegionItems& items,
+                                                        int count, const FitOptions& options,
+                                                        InteriorColumns* columns) {
+  const std::vector<Region>& regions = items.regions;
   std::vector<PartSkin> skins;
   // Which skin is buried in other limbs is not found here, because that takes longer than the fit.
   const SkinSource source{skin, kAllParts, std::vector<std::uint8_t>(skin.mesh.triangles.size(), 0)};
@@ -177,9 +178,9 @@ engine::Result<std::vector<FittedRegion>> cover_regions(const engine::Context& c
     const auto r = static_cast<std::size_t>(&region - regions.data());
     std::vector<proxy::ProxyEllipsoid> ellipsoids;
     if (!skins[r].balls.empty()) ellipsoids = follow(inner, source, skins, r, share);
-    FittedRegion covered = cover_region(inner, skin, items, region, std::move(ellipsoids));
+    FittedRegion covered = cover_region(inner, skin, items.all, region, std::move(ellipsoids));
     if (share > kFewEllipsoids) return covered;
-    FittedRegion enclosed = enclose_region(inner, items, region, share, skin.stature_m);
+    FittedRegion enclosed = enclose_region(inner, items.all, region, share, skin.stature_m);
     return total_volume(enclosed) < total_volume(covered) ? enclosed : covered;
   };
   return run_region_tasks(context, regions, tasks);
@@ -198,19 +199,19 @@ void close_inside(const engine::Context& context, const LabeledSkin& skin, const
 
 engine::Result<Draft> fit_solid(const engine::Context& context, const LabeledSkin& skin,
                                 const FitOptions& options, int count) {
-  const Items items = triangle_items(context, skin);
-  const std::vector<Region> regions = make_regions(items, count);
+  RegionItems items{.all = triangle_items(context, skin), .regions = {}};
+  items.regions = make_regions(items.all, count);
   const Thresholds mu{options.mu_torso_m.value_or(0.0), options.mu_limbs_m.value_or(0.0)};
   Draft draft;
   draft.data.tier = proxy::Tier::kSolid;
   // The interior is closed for whole bodies only: some regions alone have no interior of their own.
-  draft.parts = fitted_parts(regions, options.parts);
-  const bool whole = draft.parts == fitted_parts(regions, kAllParts);
+  draft.parts = fitted_parts(items.regions, options.parts);
+  const bool whole = draft.parts == fitted_parts(items.regions, kAllParts);
   InteriorColumns columns;
   if (whole && mu.given()) columns = columns_of(skin);
-  const auto fitted =
-      mu.given() ? refine_regions(context, items, regions, refine_options(skin.stature_m), mu, count, options)
-                 : cover_regions(context, skin, items, regions, count, options, whole ? &columns : nullptr);
+  const auto fitted = mu.given()
+                          ? refine_regions(context, items, refine_options(skin.stature_m), mu, count, options)
+                          : cover_regions(context, skin, items, count, options, whole ? &columns : nullptr);
   if (!fitted) return fitted.error();
   if (mu.given()) report_clusters(*fitted, mu, draft);
   for (const FittedRegion& f : *fitted)

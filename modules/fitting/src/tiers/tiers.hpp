@@ -21,6 +21,12 @@ struct Draft {
   std::uint32_t parts = kAllParts;      ///< a bit for each part of the fitted regions
 };
 
+/// The items of a skin, and the regions that they form.
+struct RegionItems {
+  Items all;
+  std::vector<Region> regions;  ///< of indices into `all`
+};
+
 /// The wanted parts and the parts that share a region with them.
 std::uint32_t fitted_parts(const std::vector<Region>& regions, std::uint32_t wanted);
 
@@ -30,8 +36,8 @@ engine::Result<Draft> fit_paper(const engine::Context& context, const LabeledSki
 
 /// Refines every region as the paper does, in a task of its own: to the thresholds if they are given and at
 /// most `count` ellipsoids suffice for that, else to each region's share of `count`.
-engine::Result<std::vector<FittedRegion>> refine_regions(const engine::Context& context, const Items& items,
-                                                         const std::vector<Region>& regions,
+engine::Result<std::vector<FittedRegion>> refine_regions(const engine::Context& context,
+                                                         const RegionItems& items,
                                                          const RefineOptions& refine, const Thresholds& mu,
                                                          int count, const FitOptions& options);
 

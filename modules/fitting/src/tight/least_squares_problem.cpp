@@ -82,9 +82,9 @@ void LeastSquaresProblem::measure_centers(const engine::Context& context,
     values = std::make_unique_for_overwrite<float[]>(ellipsoids.size() * blocks);
   engine::parallel_for(context, ellipsoids.size(), kEllipsoidGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin, at = begin * blocks; k < end; ++k, at += blocks)
-      batch_normals(ellipsoids[k], blocks, ball_center_[0].data(), ball_center_[1].data(),
-                    ball_center_[2].data(), &centers.of[0][at], &centers.of[1][at], &centers.of[2][at],
-                    &centers.of[3][at]);
+      batch_normals(ellipsoids[k],
+                    {blocks, ball_center_[0].data(), ball_center_[1].data(), ball_center_[2].data()},
+                    &centers.of[0][at], &centers.of[1][at], &centers.of[2][at], &centers.of[3][at]);
   });
 }
 
@@ -176,9 +176,10 @@ void LeastSquaresProblem::evaluate(const engine::Context& context,
   engine::parallel_for(context, ellipsoids.size(), kEllipsoidGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t first = pair_begin_[k];
-      batch_distances(FloatEllipsoid(ellipsoids[k]), pair_begin_[k + 1] - first,
-                      pair_point_[0].data() + first, pair_point_[1].data() + first,
-                      pair_point_[2].data() + first, distance_.data() + first);
+      batch_distances(FloatEllipsoid(ellipsoids[k]),
+                      {pair_begin_[k + 1] - first, pair_point_[0].data() + first,
+                       pair_point_[1].data() + first, pair_point_[2].data() + first},
+                      distance_.data() + first);
     }
   });
 }

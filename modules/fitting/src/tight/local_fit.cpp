@@ -54,8 +54,8 @@ double LocalFit::evaluate(const std::vector<Ellipsoid>& ellipsoids) {
   std::ranges::copy(samples_.others, now_.least.begin());
   std::ranges::fill(now_.owner, static_cast<std::uint32_t>(ellipsoids.size()));
   for (std::uint32_t e = 0; e < ellipsoids.size(); ++e) {
-    batch_distances(FloatEllipsoid(ellipsoids[e]), n, samples_.x.data(), samples_.y.data(), samples_.z.data(),
-                    distance_.data());
+    batch_distances(FloatEllipsoid(ellipsoids[e]),
+                    {n, samples_.x.data(), samples_.y.data(), samples_.z.data()}, distance_.data());
     lower(n, e, distance_.data(), now_.least.data(), now_.owner.data());
   }
   count_costs(loss_, n, samples_.target.data(), samples_.one_sided.data(), now_.least.data(),

@@ -97,7 +97,7 @@ NearestCandidates::Lanes NearestCandidates::measure(std::span<const FloatEllipso
     if (distance_.size() == ellipsoid_.size()) distance_.emplace_back();
     Lanes& d = distance_[ellipsoid_.size()];
     ellipsoid_.push_back(k);
-    batch_distances(ellipsoids[k], block.count, block.at[0], block.at[1], block.at[2], d.data());
+    batch_distances(ellipsoids[k], {block.count, block.at[0], block.at[1], block.at[2]}, d.data());
     std::fill(d.begin() + static_cast<std::ptrdiff_t>(block.count), d.end(), d[block.count - 1]);
     lower(d.data(), least.data());
     most = enough(block, least.data(), reach);

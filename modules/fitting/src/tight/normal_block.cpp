@@ -15,12 +15,13 @@ struct Sums {
 
 }  // namespace
 
-/// Adds the terms of n samples; n is a multiple of kLanes.
-BODICE_CLONES static void add_up(const FloatEllipsoid& ellipsoid, std::size_t n, const float* __restrict wx,
-                                 const float* __restrict wy, const float* __restrict wz,
-                                 const float* __restrict residual, const float* __restrict weight,
-                                 Sums& sums) {
+/// Adds the terms of the samples, in directions wx, wy, wz; their number is a multiple of kLanes.
+BODICE_CLONES static void add_up(const FloatEllipsoid& ellipsoid, const BlockSamples& samples,
+                                 Sums& __restrict sums) {
   const FloatEllipsoid e = ellipsoid;
+  const std::size_t n = samples.count;
+  const float *const wx = samples.wx.data(), *const wy = samples.wy.data(), *const wz = samples.wz.data();
+  const float *const residual = samples.residual.data(), *const weight = samples.weight.data();
   const float r0 = e.r[0], r1 = e.r[1], r2 = e.r[2];
   float j[kUnknowns][kLanes], wj[kUnknowns][kLanes];
   for (std::size_t first = 0; first < n; first += kLanes) {
@@ -77,13 +78,11 @@ NormalBlock normal_block(const geometry::Ellipsoid& ellipsoid, BlockSamples& sam
     samples.residual[samples.count] = samples.weight[samples.count] = 0.0f;
     samples.add(samples.x.front(), samples.y.front(), samples.z.front(), 0.0f, 0.0f);
   }
-  const std::size_t n = samples.count;
   const FloatEllipsoid e(ellipsoid);
-  batch_directions(e, n, samples.x.data(), samples.y.data(), samples.z.data(), samples.d.data(),
+  batch_directions(e, {samples.count, samples.x.data(), samples.y.data(), samples.z.data()},
                    samples.wx.data(), samples.wy.data(), samples.wz.data());
   Sums sums{};
-  add_up(e, n, samples.wx.data(), samples.wy.data(), samples.wz.data(), samples.residual.data(),
-         samples.weight.data(), sums);
+  add_up(e, samples, sums);
   int entry = 0;
   for (int a = 0; a < kUnknowns; ++a) {
     block.jtr[a] = total(sums.vector[a]);

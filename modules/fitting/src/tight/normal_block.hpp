@@ -26,7 +26,7 @@ struct BlockSamples {
   std::vector<float> target, d;       ///< distance to the skin, distance to the union
   std::vector<float> residual;        ///< d - target
   std::vector<float> weight;          ///< weight of the squared residual, from the robust loss
-  std::vector<float> wx, wy, wz;      ///< scratch
+  std::vector<float> wx, wy, wz;      ///< scratch: directions of the closest points
   std::vector<std::uint32_t> picked;  ///< scratch
 
   /// Removes all samples and makes room for `most`.
