@@ -62,6 +62,10 @@ cloth::Particles scatter(const engine::Random& random, const Vec3& origin) {
 
 const std::vector<std::uint8_t> untouched(kCount, 0);
 
+cloth::ContactFrame frame_of(const collision::Collider* body, double travel_m) {
+  return {.body = body, .thickness_m = kReach_m, .travel_m = travel_m};
+}
+
 /// Moves each cluster in its own direction, and one random particle of each twice as far.
 void travel(const engine::Random& random, std::uint64_t substep, cloth::Particles& p) {
   p.old_x = p.x, p.old_y = p.y, p.old_z = p.z;
@@ -87,7 +91,7 @@ TEST_CASE(
     cloth::ClearanceCache clearance = cloth::make_clearance_cache(kCount);
     // The result holds for any expected travel: some particles travel farther than all but the last of these.
     const double expected_m = std::array{0.0, 0.01, 0.05, 0.2, 1.0}[seed - 1];
-    cloth::begin_clearance_frame({}, &body, kReach_m, expected_m, untouched, p, clearance);
+    cloth::begin_clearance_frame({}, frame_of(&body, expected_m), untouched, p, clearance);
     std::vector<bool> may(kClusters, false);
     for (std::uint64_t substep = 0; substep < 16; ++substep) {
       travel(random, substep, p);
@@ -113,7 +117,7 @@ TEST_CASE("clearance cache: without a body at rest every cluster may touch") {
   const collision::Collider body = body_of(shapes());
   cloth::Particles p = scatter(engine::Random(3), body.origin() + Vec3::Constant(9.0));
   cloth::ClearanceCache clearance = cloth::make_clearance_cache(kCount);
-  cloth::begin_clearance_frame({}, nullptr, kReach_m, 1.0, {}, p, clearance);
+  cloth::begin_clearance_frame({}, frame_of(nullptr, 1.0), {}, p, clearance);
   for (std::size_t c = 0; c + 1 < kClusters; ++c)
     CHECK(cloth::may_touch(p, c * cloth::kCluster, (c + 1) * cloth::kCluster, clearance));
 }
@@ -127,7 +131,7 @@ TEST_CASE(
   std::vector<std::uint8_t> touching = untouched;
   touching[2 * cloth::kCluster - 1] = 1;
   cloth::ClearanceCache clearance = cloth::make_clearance_cache(kCount);
-  cloth::begin_clearance_frame({}, &body, kReach_m, 1.0, touching, p, clearance);
+  cloth::begin_clearance_frame({}, frame_of(&body, 1.0), touching, p, clearance);
   for (std::size_t c = 0; c + 1 < kClusters; ++c)
     CHECK(cloth::may_touch(p, c * cloth::kCluster, (c + 1) * cloth::kCluster, clearance) == (c == 1));
 }
@@ -167,7 +171,7 @@ TEST_CASE("clearance cache: a particle that touches is not missed where relief i
       p.z[i] = static_cast<float>(at[2]);
     }
     cloth::ClearanceCache clearance = cloth::make_clearance_cache(kCount);
-    cloth::begin_clearance_frame({}, &body, kReach_m, 0.01, untouched, p, clearance);
+    cloth::begin_clearance_frame({}, frame_of(&body, 0.01), untouched, p, clearance);
     p.old_x = p.x, p.old_y = p.y, p.old_z = p.z;
     for (std::size_t i = 0; i < kCount; ++i) {
       const Vec3 by = random_point(random, 100000 + i / cloth::kCluster, 5e-4);

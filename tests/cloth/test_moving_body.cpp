@@ -210,11 +210,13 @@ TEST_CASE("moving body: a push is along the normal of the body as it is when the
   cloth::BodyMotion motion = cloth::make_motion(1, 0.5);
   motion.ccd_threshold_m = 1.0f;
   motion.turns.resize(body.size());
-  cloth::begin_motion_frame({}, &body, kFrame_s, p, motion, {});
+  cloth::begin_motion_frame({}, {.body = &body, .moving = true, .length_s = kFrame_s}, p, motion, {});
   const Vec3 normal = Eigen::AngleAxisd(0.5 * kTurn_rad, Vec3::UnitZ()) * Vec3::UnitY();
   const Vec3 inside = 0.045 * normal - body.origin();
   p.x[0] = p.old_x[0] = static_cast<float>(inside.x()), p.y[0] = p.old_y[0] = static_cast<float>(inside.y());
-  cloth::resolve_moving({}, body, {.thickness_m = 0.002f}, motion, {0.4f, 0.5f}, 0, 1, p);
+  const cloth::BodyContact contact = {
+      .body = &body, .how = {.thickness_m = 0.002f}, .substep = {.share = {0.4f, 0.5f}}};
+  cloth::resolve_moving({}, contact, motion, 0, 1, p);
   const Vec3 push = Vec3(double{p.x[0]}, double{p.y[0]}, double{p.z[0]}) - inside;
   CHECK(push.norm() > 0.004);
   CHECK(push.normalized().dot(normal) > 0.999);

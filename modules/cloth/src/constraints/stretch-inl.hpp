@@ -13,13 +13,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::inline v0_1::cloth::HWY_NAMESPACE {
 
-template <int k, class Id>
-HWY_INLINE void move_ends(Point* p, const Id* a, const Id* b, Lanes at_a, Lanes at_b, Lanes apart, Lanes to_a,
-                          Lanes to_b) {
-  write_points(p, a + k, at_a - spread<k>(to_a) * apart);
-  write_points(p, b + k, at_b + spread<k>(to_b) * apart);
-}
-
 /// Solves the edges in the slots from `first` on. `longest` is the allowed length, in rest lengths.
 template <class Id>
 HWY_INLINE void solve_edges(const EdgePack<Id>& pack, std::size_t first, Lanes longest, Lanes inverse_h2,
@@ -42,10 +35,14 @@ HWY_INLINE void solve_edges(const EdgePack<Id>& pack, std::size_t first, Lanes l
   const Lanes soft = (length - rest) * w, hard = (length - longest * rest) * yielding;
   const Lanes scale = larger(soft, hard) / (w * yielding * length);
   const Lanes to_a = scale * wa, to_b = scale * wb;
-  move_ends<0>(p, a, b, at_a[0], at_b[0], d[0], to_a, to_b);
-  move_ends<1>(p, a, b, at_a[1], at_b[1], d[1], to_a, to_b);
-  move_ends<2>(p, a, b, at_a[2], at_b[2], d[2], to_a, to_b);
-  move_ends<3>(p, a, b, at_a[3], at_b[3], d[3], to_a, to_b);
+  write_points(p, a, at_a[0] - spread<0>(to_a) * d[0]);
+  write_points(p, b, at_b[0] + spread<0>(to_b) * d[0]);
+  write_points(p, a + 1, at_a[1] - spread<1>(to_a) * d[1]);
+  write_points(p, b + 1, at_b[1] + spread<1>(to_b) * d[1]);
+  write_points(p, a + 2, at_a[2] - spread<2>(to_a) * d[2]);
+  write_points(p, b + 2, at_b[2] + spread<2>(to_b) * d[2]);
+  write_points(p, a + 3, at_a[3] - spread<3>(to_a) * d[3]);
+  write_points(p, b + 3, at_b[3] + spread<3>(to_b) * d[3]);
 }
 
 /// Measures the strains of the edges in the slots from `first` on; returns twice their energies, joules.

@@ -62,16 +62,9 @@ void friction_and_velocity(Particles& p, std::size_t i, const MaterialMotion& bo
   p.vx[i] = velocity[0], p.vy[i] = velocity[1], p.vz[i] = velocity[2];
 }
 
-// What all patches of a body contact pass share.
-struct BodyContact {
-  const collision::Collider* collider;
-  collision::ResolveOptions how;
-  float friction;
-  float inverse_h;
-  FrameShare share;
-
-  bool paper() const { return how.response == collision::Response::kPaper; }
-};
+bool is_paper(const BodyContact& contact) {
+  return contact.how.response == collision::Response::kPaper;
+}
 
 // Undoes a push of a pin, because the host sets its position. The velocity is undone as well, or the push
 // would repeat in every remaining substep of the frame.
@@ -85,15 +78,16 @@ void restore_pin(Particles& p, std::size_t i, float inverse_h) {
 
 void respond(Particles& p, ContactState& s, std::size_t i, const BodyContact& contact) {
   const Point& before = p.point[i];
-  if (p.inverse_mass[i] == 0.0f) restore_pin(p, i, contact.inverse_h);
+  if (p.inverse_mass[i] == 0.0f) restore_pin(p, i, contact.substep.inverse_per_s());
   s.touching[i] = p.x[i] != before.x || p.y[i] != before.y || p.z[i] != before.z;
   if (!s.touching[i]) return;
-  if (contact.paper()) return;
+  if (is_paper(contact)) return;
   const BodyMotion& m = s.motion;
-  const float share = contact.share.end - contact.share.begin;
-  const Float4 normal = turned(load(m.normal[i]), (contact.share.end - 1.0f) * load(m.turn[i]));
-  friction_and_velocity(p, i, {share * load(m.by[i]), share * m.along[i], normal}, contact.friction,
-                        contact.inverse_h);
+  const auto [begin, end] = contact.substep.share;
+  const float share = end - begin;
+  const Float4 normal = turned(load(m.normal[i]), (end - 1.0f) * load(m.turn[i]));
+  friction_and_velocity(p, i, {share * load(m.by[i]), share * m.along[i], normal}, s.friction,
+                        contact.substep.inverse_per_s());
 }
 
 // Resolves the contacts of the particles of a patch. Only clusters that may touch the body go to the
@@ -106,9 +100,9 @@ void resolve_patch(const engine::Context& alone, const BodyContact& contact, std
     if (first == last) return;
     const std::int64_t begin_ns = alone.clock->now_ns();
     patch.report.add(
-        s.motion.moving && !contact.paper()
-            ? resolve_moving(alone, *contact.collider, contact.how, s.motion, contact.share, first, last, p)
-            : contact.collider->resolve(alone, view(p, first, last, contact.paper()), contact.how));
+        s.motion.moving && !is_paper(contact)
+            ? resolve_moving(alone, contact, s.motion, first, last, p)
+            : contact.body->resolve(alone, view(p, first, last, is_paper(contact)), contact.how));
     patch.spent_ns += alone.clock->now_ns() - begin_ns;
   };
   for (std::size_t from = begin; from < end; from += kCluster) {
@@ -152,6 +146,7 @@ std::uint32_t take_from_points(Particles& p, std::size_t begin, std::size_t end)
 
 ContactState make_contacts(std::size_t particles, double friction, FaceContact faces) {
   ContactState s;
+  s.friction = static_cast<float>(friction);
   s.touching.assign(particles, 0);
   s.clearance = make_clearance_cache(particles);
   s.motion = make_motion(particles, friction);
@@ -160,21 +155,21 @@ ContactState make_contacts(std::size_t particles, double friction, FaceContact f
   return s;
 }
 
-void begin_contact_frame(const engine::Context& context, const collision::Collider* collider, bool moved,
-                         const SolverOptions& options, double frame_s, double travel_m, Particles& particles,
-                         ContactState& s) {
+void begin_contact_frame(const engine::Context& context, const ContactFrame& given,
+                         const SolverOptions& options, Particles& particles, ContactState& s) {
   const std::int64_t begin_ns = context.clock->now_ns();
+  ContactFrame frame = given;
   // The paper's response has distances of its own and uses surface velocities by itself.
-  const collision::Collider* body = options.response == collision::Response::kPaper ? nullptr : collider;
-  if (body != nullptr) s.motion.turns.resize(body->size());  // before it moves, because that allocates
-  begin_motion_frame(context, moved ? body : nullptr, frame_s, particles, s.motion, s.faces.nearest);
-  begin_clearance_frame(context, s.motion.moving ? nullptr : body, options.thickness_m, travel_m, s.touching,
-                        particles, s.clearance);
+  if (options.response == collision::Response::kPaper) frame.body = nullptr;
+  // Memory is allocated before the body moves.
+  if (frame.body != nullptr) s.motion.turns.resize(frame.body->size());
+  begin_motion_frame(context, frame, particles, s.motion, s.faces.nearest);
+  begin_clearance_frame(context, frame, s.touching, particles, s.clearance);
   s.faces.on = false;
   s.proof = {};
-  if (body != nullptr && options.face_contact) {
-    if (!s.motion.moving) query_particles(context, *body, s.faces, particles);
-    begin_face_frame(context, *body, frame_s, options.environment,
+  if (frame.body != nullptr && options.face_contact) {
+    if (!s.motion.moving) query_particles(context, *frame.body, s.faces, particles);
+    begin_face_frame(context, frame, options.environment,
                      {s.motion.shift, s.motion.turn, s.motion.along, s.motion.follow, s.motion.moving},
                      particles, s.faces);
   }
@@ -183,17 +178,16 @@ void begin_contact_frame(const engine::Context& context, const collision::Collid
 }
 
 std::uint32_t resolve_body_contacts(const engine::Context& context, const collision::Collider* collider,
-                                    const SolverOptions& options, float friction, const Substep& substep,
-                                    ContactState& s, Particles& p) {
+                                    const SolverOptions& options, const Substep& substep, ContactState& s,
+                                    Particles& p) {
   const bool paper = options.response == collision::Response::kPaper;
   const BodyContact contact = {collider,
                                {.response = options.response,
                                 .thickness_m = static_cast<float>(options.thickness_m),
-                                .friction = paper ? friction : 0.0f,
+                                .friction = paper ? s.friction : 0.0f,
                                 .max_push_m = kFromBody_m_s * substep.length_s},
-                               friction,
-                               1.0f / substep.length_s,
-                               substep.share};
+                               substep};
+  const float inverse_h = substep.inverse_per_s();
   engine::Context alone = context;  // one worker resolves a whole patch
   alone.executor = &engine::inline_executor();
   const FaceSubstep faces = {substep.length_s, substep.share.end - substep.share.begin,
@@ -202,7 +196,7 @@ std::uint32_t resolve_body_contacts(const engine::Context& context, const collis
   engine::parallel_for(context, p.count(), kPatch, [&](std::size_t begin, std::size_t end) {
     if (const std::uint32_t reset = take_from_points(p, begin, end))
       limits.fetch_or(reset, std::memory_order_relaxed);
-    if (paper || collider == nullptr) velocities_from_positions(p, begin, end, contact.inverse_h);
+    if (paper || collider == nullptr) velocities_from_positions(p, begin, end, inverse_h);
     if (s.motion.moving) std::fill(&s.motion.along[begin], &s.motion.along[begin] + (end - begin), 0.0f);
     if (s.faces.on) enter_faces(faces, begin, end, p, s.faces);
   });
@@ -216,7 +210,7 @@ std::uint32_t resolve_body_contacts(const engine::Context& context, const collis
   engine::parallel_for(context, p.count(), kPatch, [&](std::size_t begin, std::size_t end) {
     if (s.faces.on) leave_faces(begin, end, s.faces, p);
     resolve_patch(alone, contact, begin, end, s, p);
-    if (!paper) velocities_from_positions(p, begin, end, contact.inverse_h);
+    if (!paper) velocities_from_positions(p, begin, end, inverse_h);
     for (std::size_t i = begin; i < end; ++i) respond(p, s, i, contact);
   });
   return limits.load();

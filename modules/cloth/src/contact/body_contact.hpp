@@ -24,6 +24,7 @@ struct ContactPatch {
 
 /// The state of body contact.
 struct ContactState {
+  float friction = 0.0f;               ///< coefficient of friction of the cloth
   std::vector<std::uint8_t> touching;  ///< #P: whether the collider moved the particle in the last substep
   std::vector<ContactPatch> patch;     ///< #P / kPatch
   ClearanceCache clearance;
@@ -33,29 +34,21 @@ struct ContactState {
   FaceProof proof;
 };
 
-/// One of a frame's substeps.
-struct Substep {
-  float length_s = 0.0f;
-  FrameShare share;
-};
-
 /// The state for so many particles of cloth with this coefficient of friction; `faces` are those of
 /// make_face_contact().
 ContactState make_contacts(std::size_t particles, double friction, FaceContact faces);
 
-/// Begins a frame. `collider` may be null: there is no body. `moved` is the result of is_moving(*collider);
-/// `travel_m` is as in begin_clearance_frame().
-void begin_contact_frame(const engine::Context& context, const collision::Collider* collider, bool moved,
-                         const SolverOptions& options, double frame_s, double travel_m, Particles& particles,
-                         ContactState& state);
+/// Begins a frame.
+void begin_contact_frame(const engine::Context& context, const ContactFrame& frame,
+                         const SolverOptions& options, Particles& particles, ContactState& state);
 
 /// Copies the points, which constraints moved, to the positions, moves these and the faces between them out
 /// of the body, and sets the velocities of all particles; old_* are the positions at the start of the
 /// substep. `collider` may be null: there is no body. A particle that is not finite returns to its old
 /// position. Returns FrameLimit bits.
 std::uint32_t resolve_body_contacts(const engine::Context& context, const collision::Collider* collider,
-                                    const SolverOptions& options, float friction, const Substep& substep,
-                                    ContactState& state, Particles& particles);
+                                    const SolverOptions& options, const Substep& substep, ContactState& state,
+                                    Particles& particles);
 
 /// Ends a frame with a body: proves that faces are out of it, if the options ask for that.
 void end_contact_frame(const engine::Context& context, const collision::Collider& collider,

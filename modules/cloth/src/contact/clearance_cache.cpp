@@ -63,9 +63,9 @@ ClearanceCache make_clearance_cache(std::size_t particles) {
   return c;
 }
 
-void begin_clearance_frame(const engine::Context& context, const collision::Collider* still_body,
-                           double thickness_m, double travel_m, std::span<const std::uint8_t> touching,
-                           Particles& particles, ClearanceCache& c) {
+void begin_clearance_frame(const engine::Context& context, const ContactFrame& frame,
+                           std::span<const std::uint8_t> touching, Particles& particles, ClearanceCache& c) {
+  const collision::Collider* const still_body = frame.still_body();
   const bool wait = c.frames_without > 0 && --c.frames_without > 0;
   if (wait || still_body == nullptr) {
     std::ranges::fill(c.free_m, 0.0f);
@@ -73,8 +73,8 @@ void begin_clearance_frame(const engine::Context& context, const collision::Coll
   }
   const Steepness& steepness = still_body->has_relief() ? kReliefSteepness : kPlainSteepness;
   const QueryBand band = {
-      static_cast<float>(thickness_m) + steepness.rise_m,
-      kTravelSpare * steepness.slope * static_cast<float>(std::min(kMostTravel_m, travel_m))};
+      static_cast<float>(frame.thickness_m) + steepness.rise_m,
+      kTravelSpare * steepness.slope * static_cast<float>(std::min(kMostTravel_m, frame.travel_m))};
   c.slope = steepness.slope;
   query_clusters(context, *still_body, band, touching, particles, c);
   const auto far = std::ranges::count_if(c.free_m, [](float free_m) { return free_m > 0.0f; });

@@ -9,6 +9,7 @@
 #include <bodice/collision/collider.hpp>
 #include <bodice/engine/context.hpp>
 
+#include "base/contact_frame.hpp"
 #include "base/particles.hpp"
 
 namespace bodice::inline v0_1::cloth {
@@ -27,15 +28,13 @@ struct ClearanceCache {
 /// The cache for so many particles.
 ClearanceCache make_clearance_cache(std::size_t particles);
 
-/// Begins a frame. `still_body` is null if there is no body or it moves; then every cluster may touch,
-/// because distances at the end of a motion bound nothing on its path. So it is for some frames after most
-/// clusters were found near. touching   #P: whether the body moved the particle in the substep before
-/// travel_m   expected longest travel in the frame, which bounds the queried distances; a particle that
-/// travels farther is
-///            handled correctly, because its cluster then may touch
-void begin_clearance_frame(const engine::Context& context, const collision::Collider* still_body,
-                           double thickness_m, double travel_m, std::span<const std::uint8_t> touching,
-                           Particles& particles, ClearanceCache& clearance);
+/// Begins a frame. Without a body, or if it moves, every cluster may touch, because distances at the end of a
+/// motion bound nothing on its path. So it is for some frames after most clusters were found near. The
+/// cluster of a particle that travels farther than expected may touch as well. `touching` is #P: whether the
+/// body moved the particle in the substep before.
+void begin_clearance_frame(const engine::Context& context, const ContactFrame& frame,
+                           std::span<const std::uint8_t> touching, Particles& particles,
+                           ClearanceCache& clearance);
 
 /// Whether the particles [begin, end) of a cluster, which moved from old_* to their positions, may touch the
 /// body now. Subtracts the travel from the cache.

@@ -60,8 +60,9 @@ void find_turns(const collision::Collider& body, double frame_s, std::span<Vec3>
 // longer known, but the owners of the particles are: their motion takes each particle to where a query finds
 // the same material. Without an owner, that is the ellipsoid nearest to the particle at the end of the frame;
 // where a limb has moved by more than its width, it may be another limb's.
-void find_motion(const collision::Collider& body, double frame_s, std::size_t begin, std::size_t end,
-                 const Particles& p, BodyMotion& motion, std::span<collision::Contact> kept) {
+void find_motion(const ContactFrame& frame, std::size_t begin, std::size_t end, const Particles& p,
+                 BodyMotion& motion, std::span<collision::Contact> kept) {
+  const collision::Collider& body = *frame.body;
   collision::Contact nearest[kPatch];
   Moved points;
   bool all_known = true;
@@ -73,7 +74,7 @@ void find_motion(const collision::Collider& body, double frame_s, std::size_t be
   for (std::size_t k = 0; k < end - begin; ++k) {
     const std::uint32_t known = motion.owner[begin + k];
     const std::uint32_t owner = known != collision::kNoEllipsoid ? known : nearest[k].ellipsoid;
-    const Vec3 by = displacement(body, owner, frame_s, points.at(k));
+    const Vec3 by = displacement(body, owner, frame.length_s, points.at(k));
     points.put(k, points.x[k], points.y[k], points.z[k], load(point(by)));
   }
   points.query(body, end - begin, nearest);
@@ -81,7 +82,7 @@ void find_motion(const collision::Collider& body, double frame_s, std::size_t be
   if (!kept.empty()) std::copy_n(nearest, end - begin, &kept[begin]);
   for (std::size_t i = begin; i < end; ++i) {
     const collision::Contact& at = nearest[i - begin];
-    const Vec3 by = frame_s * body.surface_velocity(at.ellipsoid, points.at(i - begin));
+    const Vec3 by = frame.length_s * body.surface_velocity(at.ellipsoid, points.at(i - begin));
     const Vec3 normal = Eigen::Map<const Eigen::Vector3f>(at.normal).cast<double>();
     const Vec3 turn = at.ellipsoid < motion.turns.size() ? motion.turns[at.ellipsoid] : Vec3::Zero();
     motion.by[i] = point(by), motion.normal[i] = point(normal);
@@ -90,23 +91,29 @@ void find_motion(const collision::Collider& body, double frame_s, std::size_t be
   }
 }
 
-// Finds the path of each particle relative to the body in a substep, from `safe` to `now`; returns the
-// longest length.
-float find_paths(const BodyMotion& motion, const FrameShare& substep, std::size_t begin, std::size_t end,
-                 const Particles& p, Moved& safe, Moved& now) {
+// The path of each particle of a patch in a substep, relative to the body.
+struct Paths {
+  Moved safe, now;
+  float longest_m = 0.0f;
+};
+
+Paths find_paths(const BodyMotion& motion, const FrameShare& substep, std::size_t begin, std::size_t end,
+                 const Particles& p) {
+  Paths paths;
   Float4 longest2 = splat(0.0f);
   for (std::size_t i = begin; i < end; ++i) {
     const Float4 shift = load(motion.shift[i]);
     const Float4 from = (1.0f - substep.begin) * shift, to = (1.0f - substep.end) * shift;
     // The collider moves safe positions with the whole frame's motion, so that they are given as before the
     // frame.
-    safe.put(i - begin, p.old_x[i], p.old_y[i], p.old_z[i], from - load(motion.by[i]));
-    now.put(i - begin, p.x[i], p.y[i], p.z[i], to);
+    paths.safe.put(i - begin, p.old_x[i], p.old_y[i], p.old_z[i], from - load(motion.by[i]));
+    paths.now.put(i - begin, p.x[i], p.y[i], p.z[i], to);
     const Float4 path =
         Float4{p.x[i] - p.old_x[i], p.y[i] - p.old_y[i], p.z[i] - p.old_z[i], 0.0f} + to - from;
     longest2 = max(longest2, splat(path[0] * path[0] + path[1] * path[1] + path[2] * path[2]));
   }
-  return std::sqrt(longest2[0]);
+  paths.longest_m = std::sqrt(longest2[0]);
+  return paths;
 }
 
 }  // namespace
@@ -130,11 +137,10 @@ bool is_moving(const collision::Collider& body) {
   return false;
 }
 
-void begin_motion_frame(const engine::Context& context, const collision::Collider* moving_body,
-                        double frame_s, const Particles& p, BodyMotion& motion,
-                        std::span<collision::Contact> nearest) {
+void begin_motion_frame(const engine::Context& context, const ContactFrame& frame, const Particles& p,
+                        BodyMotion& motion, std::span<collision::Contact> nearest) {
   const bool moved = motion.moving;
-  motion.moving = moving_body != nullptr;
+  motion.moving = frame.moving_body() != nullptr;
   if (!motion.moving) {
     if (!moved) return;
     for (auto* vectors : {&motion.by, &motion.shift, &motion.normal, &motion.turn})
@@ -142,9 +148,9 @@ void begin_motion_frame(const engine::Context& context, const collision::Collide
     std::ranges::fill(motion.along, 0.0f);
     return;
   }
-  find_turns(*moving_body, frame_s, motion.turns);
+  find_turns(*frame.body, frame.length_s, motion.turns);
   engine::parallel_for(context, p.count(), kPatch, [&](std::size_t begin, std::size_t end) {
-    find_motion(*moving_body, frame_s, begin, end, p, motion, nearest);
+    find_motion(frame, begin, end, p, motion, nearest);
   });
 }
 
@@ -169,25 +175,24 @@ void forget_owners(BodyMotion& motion) {
 
 // Continuous collision costs much more than a push from the current position, and gives the same side unless
 // the particle passed through the body. So it is used for long paths only.
-collision::ContactReport resolve_moving(const engine::Context& context, const collision::Collider& body,
-                                        const collision::ResolveOptions& how, BodyMotion& motion,
-                                        const FrameShare& substep, std::size_t begin, std::size_t end,
+collision::ContactReport resolve_moving(const engine::Context& context, const BodyContact& contact,
+                                        BodyMotion& motion, std::size_t begin, std::size_t end,
                                         Particles& p) {
-  Moved safe, before;
-  const float path_m = find_paths(motion, substep, begin, end, p, safe, before);
+  Paths paths = find_paths(motion, contact.substep.share, begin, end, p);
+  const Moved& before = paths.now;
   Moved after = before;
   collision::Particles view{.count = end - begin, .x = after.x, .y = after.y, .z = after.z};
-  collision::ResolveOptions options = how;
-  if (path_m > motion.ccd_threshold_m)
-    view.safe_x = safe.x, view.safe_y = safe.y, view.safe_z = safe.z;
+  collision::ResolveOptions options = contact.how;
+  if (paths.longest_m > motion.ccd_threshold_m)
+    view.safe_x = paths.safe.x, view.safe_y = paths.safe.y, view.safe_z = paths.safe.z;
   else
-    options.max_push_m += path_m;
-  const collision::ContactReport report = body.resolve(context, view, options);
+    options.max_push_m += paths.longest_m;
+  const collision::ContactReport report = contact.body->resolve(context, view, options);
   for (std::size_t i = begin; i < end; ++i) {
     const std::size_t k = i - begin;
     const Float4 push = {after.x[k] - before.x[k], after.y[k] - before.y[k], after.z[k] - before.z[k], 0.0f};
     motion.along[i] += dot(push, load(motion.by[i]));
-    const Float4 by = turned(push, (substep.end - 1.0f) * load(motion.turn[i]));
+    const Float4 by = turned(push, (contact.substep.share.end - 1.0f) * load(motion.turn[i]));
     p.x[i] += by[0], p.y[i] += by[1], p.z[i] += by[2];  // a particle without a push keeps its exact position
   }
   return report;

@@ -15,6 +15,7 @@
 #include <bodice/collision/collider.hpp>
 #include <bodice/engine/context.hpp>
 
+#include "base/contact_frame.hpp"
 #include "base/particles.hpp"
 
 namespace bodice::inline v0_1::cloth {
@@ -51,13 +52,11 @@ struct FrameShare {
 /// Whether any ellipsoid of the body has a velocity.
 bool is_moving(const collision::Collider& body);
 
-/// Begins a frame of `frame_s` at the end of which the body has its current pose; null: no body moves.
-/// `nearest` takes the contacts of the particles (#P, or empty), displaced by `by`. Costs a query a particle
-/// if the body moves, two where owners are not known, and nothing otherwise.
-/// Precondition: `turns` has the size of the body.
-void begin_motion_frame(const engine::Context& context, const collision::Collider* moving_body,
-                        double frame_s, const Particles& particles, BodyMotion& motion,
-                        std::span<collision::Contact> nearest);
+/// Begins a frame. `nearest` takes the contacts of the particles (#P, or empty), displaced by `by`. Costs a
+/// query a particle if the body moves, two where owners are not known, and nothing otherwise. Precondition:
+/// `turns` has the size of the body.
+void begin_motion_frame(const engine::Context& context, const ContactFrame& frame, const Particles& particles,
+                        BodyMotion& motion, std::span<collision::Contact> nearest);
 
 /// Ends a frame with a body: notes the owners of all particles. That costs a query a particle where the body
 /// moved; where it did not, they are those of `nearest` (#P, or empty), the contacts when the frame began.
@@ -68,11 +67,25 @@ void end_motion_frame(const engine::Context& context, const collision::Collider&
 /// Forgets the owners of all particles: these, or the body, are no longer where they were.
 void forget_owners(BodyMotion& motion);
 
+/// One of a frame's substeps.
+struct Substep {
+  float length_s = 0.0f;
+  FrameShare share;
+
+  float inverse_per_s() const { return 1.0f / length_s; }  ///< of its length
+};
+
+/// The contact of cloth with the body in a substep.
+struct BodyContact {
+  const collision::Collider* body = nullptr;  ///< null: there is no body
+  collision::ResolveOptions how;
+  Substep substep;
+};
+
 /// Moves the particles [begin, end) out of a moving body in its pose at the end of a substep; old_* are their
 /// positions at the start of the substep.
-collision::ContactReport resolve_moving(const engine::Context& context, const collision::Collider& body,
-                                        const collision::ResolveOptions& how, BodyMotion& motion,
-                                        const FrameShare& substep, std::size_t begin, std::size_t end,
+collision::ContactReport resolve_moving(const engine::Context& context, const BodyContact& contact,
+                                        BodyMotion& motion, std::size_t begin, std::size_t end,
                                         Particles& particles);
 
 }  // namespace bodice::cloth

@@ -179,16 +179,17 @@ void query_particles(const engine::Context& context, const collision::Collider& 
   });
 }
 
-void begin_face_frame(const engine::Context& context, const collision::Collider& body, double frame_s,
+void begin_face_frame(const engine::Context& context, const ContactFrame& frame,
                       const Environment& environment, const MotionNearParticles& motion, const Particles& p,
                       FaceContact& f) {
-  const Steepness& steepness = body.has_relief() ? kReliefSteepness : kPlainSteepness;
+  const Steepness& steepness = frame.body->has_relief() ? kReliefSteepness : kPlainSteepness;
   f.rules.slope = steepness.slope, f.rules.rise_m = steepness.rise_m;
-  f.rules.frame_s = static_cast<float>(frame_s);
-  f.rules.fall_m = static_cast<float>(0.5 * frame_s * frame_s * environment.gravity_m_s2.norm());
+  f.rules.frame_s = static_cast<float>(frame.length_s);
+  f.rules.fall_m =
+      static_cast<float>(0.5 * frame.length_s * frame.length_s * environment.gravity_m_s2.norm());
   f.contacts = 0;
   f.motion = motion;
-  place_samples(context, body, f.rules, f.elements, f.nearest, motion, p, f.samples);
+  place_samples(context, {*frame.body, f.nearest, motion}, f.rules, f.elements, p, f.samples);
   f.on = !f.samples.all.empty();
   std::ranges::fill(f.run, RunState{});
   std::fill_n(f.until_m.begin(), f.samples.all.size(), 0.0f);

@@ -12,6 +12,7 @@
 
 #include <bodice/cloth/solver.hpp>
 
+#include "base/contact_frame.hpp"
 #include "faces/face_samples.hpp"
 
 namespace bodice::inline v0_1::cloth {
@@ -50,7 +51,7 @@ void query_particles(const engine::Context& context, const collision::Collider& 
                      Particles& particles);
 
 /// Begins a frame with a body. `nearest` of `faces` has the particles' contacts.
-void begin_face_frame(const engine::Context& context, const collision::Collider& body, double frame_s,
+void begin_face_frame(const engine::Context& context, const ContactFrame& frame,
                       const Environment& environment, const MotionNearParticles& motion,
                       const Particles& particles, FaceContact& faces);
 

@@ -32,8 +32,7 @@ float length2(Float4 v) {
 struct Placement {
   const SampleRules& rules;
   const Particles& p;
-  std::span<const collision::Contact> nearest;
-  const MotionNearParticles& motion;
+  BodyNearParticles near;
   std::span<ParticleRoom> room;
   float widening = 1.0f;  // above 1 if there is no room for all samples
 
@@ -55,7 +54,7 @@ struct Placement {
   float parts(Index i, Index j, float allowed_m) const {
     const Float4 edge = at(p, j) - at(p, i);
     const float by_length = length(edge) / (rules.spacing_m * widening);
-    const collision::Contact &a = nearest[i], &b = nearest[j];
+    const collision::Contact &a = near.nearest[i], &b = near.nearest[j];
     if (a.ellipsoid == collision::kNoEllipsoid || b.ellipsoid == collision::kNoEllipsoid) return by_length;
     const float sag = dot(vector_of(b.normal) - vector_of(a.normal), edge) / 8.0f;
     return std::max(by_length, std::sqrt(std::max(0.0f, sag) / allowed_m) / widening);
@@ -66,9 +65,9 @@ void find_room(const engine::Context& context, const Placement& how) {
   const SampleRules& r = how.rules;
   engine::parallel_for(context, how.p.count(), kElementGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Float4 path =
-          Float4{how.p.vx[i], how.p.vy[i], how.p.vz[i], 0.0f} * r.frame_s - xyz(load(how.motion.shift[i]));
-      how.room[i] = {std::min(how.nearest[i].signed_distance, kFarthest_m),
+      const Float4 path = Float4{how.p.vx[i], how.p.vy[i], how.p.vz[i], 0.0f} * r.frame_s -
+                          xyz(load(how.near.motion.shift[i]));
+      how.room[i] = {std::min(how.near.nearest[i].signed_distance, kFarthest_m),
                      kSpare * (length(path) + r.fall_m)};
     }
   });
@@ -132,8 +131,9 @@ float deficit(const Placement& how, Index i) {
   return how.p.inverse_mass[i] > 0.0f ? 0.0f : std::max(0.0f, how.rules.keep_m - how.room[i].distance_m);
 }
 
-void query_samples(const collision::Collider& body, const Placement& how, const SampleRange& range,
-                   std::span<FaceSample> samples) {
+void query_samples(const Placement& how, const SampleRange& range, std::span<FaceSample> samples) {
+  const collision::Collider& body = how.near.body;
+  const MotionNearParticles& motion = how.near.motion;
   SampleQuery query;
   for (std::uint32_t k = range.begin; k < range.end; ++k) {
     FaceSample& s = samples[k];
@@ -142,14 +142,14 @@ void query_samples(const collision::Collider& body, const Placement& how, const 
     s.keep_m = how.rules.keep_m;
     for (int c = 0; c < 3; ++c) {
       const Index i = s.particle[c];
-      where += weight[c] * at(how.p, i), shift += weight[c] * xyz(load(how.motion.shift[i]));
+      where += weight[c] * at(how.p, i), shift += weight[c] * xyz(load(motion.shift[i]));
       s.keep_m -= weight[c] * deficit(how, i);
     }
     for (int axis = 0; axis < 3; ++axis) s.shift[axis] = shift[axis];
     query.add(k, where + shift);
-    if (query.is_full()) query.run(body, how.rules, how.motion, samples);
+    if (query.is_full()) query.run(body, how.rules, motion, samples);
   }
-  query.run(body, how.rules, how.motion, samples);
+  query.run(body, how.rules, motion, samples);
 }
 
 // The turn of normals between neighboring samples of an element shows which parts it needs next time.
@@ -224,10 +224,9 @@ void SampleQuery::run(const collision::Collider& body, const SampleRules& rules,
   count = 0;
 }
 
-void place_samples(const engine::Context& context, const collision::Collider& body, const SampleRules& rules,
-                   const Elements& elements, std::span<const collision::Contact> nearest,
-                   const MotionNearParticles& motion, const Particles& p, FaceSamples& s) {
-  Placement how{rules, p, nearest, motion, s.room};
+void place_samples(const engine::Context& context, const BodyNearParticles& near, const SampleRules& rules,
+                   const Elements& elements, const Particles& p, FaceSamples& s) {
+  Placement how{rules, p, near, s.room};
   find_room(context, how);
   std::size_t count = count_samples(context, how, elements, s);
   while (count > s.most && how.widening < static_cast<float>(kFinest)) {
@@ -241,7 +240,7 @@ void place_samples(const engine::Context& context, const collision::Collider& bo
       if (s.begin[e + 1] > s.begin[e]) write_samples(elements.all[e], s.parts[e], &s.all[s.begin[e]]);
   });
   engine::parallel_for(context, elements.runs(), kQueriedRuns, [&](std::size_t begin, std::size_t end) {
-    query_samples(body, how, {s.of_run(elements, begin).begin, s.begin[elements.run_begin[end]]}, s.all);
+    query_samples(how, {s.of_run(elements, begin).begin, s.begin[elements.run_begin[end]]}, s.all);
   });
   engine::parallel_for(context, elements.all.size(), kElementGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e)

@@ -56,6 +56,13 @@ struct MotionNearParticles {
   bool moving = false;  ///< whether any of it is not zero
 };
 
+/// The body near the particles in a frame.
+struct BodyNearParticles {
+  const collision::Collider& body;
+  std::span<const collision::Contact> nearest;  ///< #P: the particles' contacts in the body's motion
+  const MotionNearParticles& motion;
+};
+
 /// The room that the body leaves a particle in a frame.
 struct ParticleRoom {
   float distance_m = 0.0f;  ///< large beyond the query band
@@ -87,12 +94,10 @@ FaceSamples make_face_samples(const Elements& elements, std::size_t particles, s
 /// The number of samples that the widest spacing gives for the garment at rest.
 std::size_t count_at_rest(const Elements& elements, const Particles& particles, float spacing_m);
 
-/// Chooses the samples of a frame and queries them. `nearest` is #P: the particles' contacts in the body's
-/// motion. Allocates nothing; with too many samples all are spaced more widely. The same for any number of
-/// workers.
-void place_samples(const engine::Context& context, const collision::Collider& body, const SampleRules& rules,
-                   const Elements& elements, std::span<const collision::Contact> nearest,
-                   const MotionNearParticles& motion, const Particles& particles, FaceSamples& samples);
+/// Chooses the samples of a frame and queries them. Allocates nothing; with too many samples all are spaced
+/// more widely. The same for any number of workers.
+void place_samples(const engine::Context& context, const BodyNearParticles& near, const SampleRules& rules,
+                   const Elements& elements, const Particles& particles, FaceSamples& samples);
 
 /// Gives a sample the distance, the normal and the motion of a contact.
 void take_contact(const collision::Collider& body, const MotionNearParticles& motion,

@@ -47,16 +47,11 @@ void update_normal(Air& air, std::size_t i) {
   air.area_m2[i] = area;
 }
 
-void update_wind(const Environment& environment, std::uint64_t seed, double time_s, const Particles& p,
-                 Air& air, std::size_t begin, std::size_t end) {
+// The wind at a point of the world, with its gust.
+Vec3 wind_at(const Environment& environment, std::uint64_t seed, double time_s, const Vec3& point) {
   const bool gusty = environment.gust > 0.0 && environment.wind_m_s.squaredNorm() > 0.0;
-  for (std::size_t i = begin; i < end; ++i) {
-    Vec3 wind = environment.wind_m_s;
-    if (gusty) wind *= gust_factor(environment, seed, time_s, p.world(i));
-    air.wind_x[i] = static_cast<float>(wind[0]);
-    air.wind_y[i] = static_cast<float>(wind[1]);
-    air.wind_z[i] = static_cast<float>(wind[2]);
-  }
+  if (!gusty) return environment.wind_m_s;
+  return environment.wind_m_s * gust_factor(environment, seed, time_s, point);
 }
 
 }  // namespace
@@ -88,8 +83,13 @@ void update_air(const engine::Context& context, const Environment& environment, 
       context, air.triangles.size(), kParticleGrain,
       [&](std::size_t begin, std::size_t end) { update_triangles(particles, air, begin, end); });
   engine::parallel_for(context, particles.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) update_normal(air, i);
-    update_wind(environment, seed, time_s, particles, air, begin, end);
+    for (std::size_t i = begin; i < end; ++i) {
+      update_normal(air, i);
+      const Vec3 wind = wind_at(environment, seed, time_s, particles.world(i));
+      air.wind_x[i] = static_cast<float>(wind[0]);
+      air.wind_y[i] = static_cast<float>(wind[1]);
+      air.wind_z[i] = static_cast<float>(wind[2]);
+    }
   });
 }
 

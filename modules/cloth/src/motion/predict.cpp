@@ -46,7 +46,8 @@ void write_points(Float4 x, Float4 y, Float4 z, Float4 weight, std::size_t count
 }  // namespace
 
 std::uint32_t predict(const Environment& environment, const Air& air, const Prediction& how,
-                      std::size_t begin, std::size_t end, Particles& p, Point* at) {
+                      std::size_t begin, Particles& p, std::span<Point> points) {
+  const std::size_t end = begin + points.size();
   const Float4 damping = splat(std::exp(-how.damping_per_s * how.substep_s));
   std::uint32_t limits = 0;
   for (std::size_t i = begin; i < end; i += 4) {
@@ -60,7 +61,8 @@ std::uint32_t predict(const Environment& environment, const Air& air, const Pred
       for (std::size_t k = i; k < last; ++k) limits |= bound_velocity(p, k, how.top_speed_m_s);
     write_points(load(&p.old_x[i]) + how.substep_s * load(&p.vx[i]),
                  load(&p.old_y[i]) + how.substep_s * load(&p.vy[i]),
-                 load(&p.old_z[i]) + how.substep_s * load(&p.vz[i]), weight, last - i, at + (i - begin));
+                 load(&p.old_z[i]) + how.substep_s * load(&p.vz[i]), weight, last - i,
+                 points.data() + (i - begin));
   }
   return limits;
 }

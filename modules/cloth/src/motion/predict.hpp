@@ -1,6 +1,9 @@
 // The first part of a substep: velocities and predicted positions.
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "base/particles.hpp"
 #include "motion/aerodynamics.hpp"
 
@@ -13,9 +16,9 @@ struct Prediction {
   float top_speed_m_s = 0.0f;
 };
 
-/// Accelerates the particles [begin, end) and writes their predicted positions from at[0] on; pinned and
-/// sleeping particles keep their velocities. `begin` is a multiple of four. Returns FrameLimit bits.
+/// Accelerates the particles from `begin` on, a multiple of four, and writes the predicted position of one to
+/// each point; pinned and sleeping particles keep their velocities. Returns FrameLimit bits.
 std::uint32_t predict(const Environment& environment, const Air& air, const Prediction& how,
-                      std::size_t begin, std::size_t end, Particles& particles, Point* at);
+                      std::size_t begin, Particles& particles, std::span<Point> points);
 
 }  // namespace bodice::cloth

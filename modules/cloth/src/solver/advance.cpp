@@ -77,7 +77,7 @@ std::uint32_t predict_and_sweep(const engine::Context& context, const Plan& plan
   const std::size_t size = block_size(s.particles.count());
   engine::parallel_for(context, s.particles.count(), size, [&](std::size_t begin, std::size_t end) {
     Patch patch;
-    limits.fetch_or(predict(s.options.environment, s.air, how, begin, end, s.particles, patch.at),
+    limits.fetch_or(predict(s.options.environment, s.air, how, begin, s.particles, {patch.at, end - begin}),
                     std::memory_order_relaxed);
     solve_block(begin / size, bend, inverse_h2, patch, s);
     std::copy_n(patch.at, end - begin, &s.particles.point[begin]);
@@ -128,8 +128,8 @@ std::uint32_t run_substep(const engine::Context& context, const collision::Colli
   solve_coarse(context, s.coarse, p);
   const SelfSubstep with_itself = self_substep(plan, s);
   if (touches_itself(plan, s)) push_apart(context, with_itself, s.self, p);
-  limits |= resolve_body_contacts(context, collider, s.options, with_itself.friction,
-                                  {plan.substep_s, share(substep, plan)}, s.contacts, p);
+  limits |= resolve_body_contacts(context, collider, s.options, {plan.substep_s, share(substep, plan)},
+                                  s.contacts, p);
   if (touches_itself(plan, s))
     hold_apart(context, with_itself, resolved_body(collider, share(substep, plan), s), s.self, p);
   return limits;
@@ -189,8 +189,13 @@ FrameReport advance(const engine::Context& context, const collision::Collider* c
   report.simulated_s = plan.simulated_s;
   report.limits = plan.limits;
   if (plan.substeps > 0) begin_frame(context, plan, s);
-  begin_contact_frame(context, plan.substeps > 0 ? collider : nullptr, moved, s.options, dt_s, plan.travel_m,
-                      s.particles, s.contacts);
+  begin_contact_frame(context,
+                      {.body = plan.substeps > 0 ? collider : nullptr,
+                       .moving = moved,
+                       .length_s = dt_s,
+                       .thickness_m = s.options.thickness_m,
+                       .travel_m = plan.travel_m},
+                      s.options, s.particles, s.contacts);
   for (int substep = 0; substep < plan.substeps; ++substep)
     report.limits |= run_substep(context, collider, plan, substep, s);
   if (plan.substeps > 0 && collider != nullptr) end_contact(context, *collider, plan, s);
