@@ -1,5 +1,6 @@
 // bodice.h for C++17: handles that release themselves, and results that hold a value or a failure. It throws
-// nothing and needs neither exceptions nor run-time types; all of it is in this header.
+// nothing and needs neither exceptions nor run-time types; all of it is in this header. Each function calls
+// that of its name in bodice.h, where shapes, units and failures are stated.
 //
 //     auto context = bodice::Context::create();
 //     if (!context) return std::puts(context.error()), 1;

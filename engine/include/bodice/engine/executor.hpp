@@ -15,6 +15,7 @@ class BackgroundTask {
   virtual ~BackgroundTask() = default;
   /// The task's name in traces and in the host's profiler; valid as long as the task.
   virtual const char* name() const noexcept = 0;
+  /// Does the work. An executor calls it once, on any of its workers.
   virtual void run() noexcept = 0;
 };
 

@@ -79,6 +79,7 @@ class StreamBase;
 /// Frames, submissions and reads of the streams come from one thread.
 class FramePipeline {
  public:
+  /// Frames and jobs run on the context's executor, which outlives the pipeline. Allocates.
   FramePipeline(const Context& context, const PipelineOptions& options);
   /// Cancels the jobs and waits for them. The streams must be destroyed before.
   ~FramePipeline();
@@ -90,6 +91,7 @@ class FramePipeline {
   /// thread.
   FrameTiming frame(FunctionRef<void(const Context&)> body);
 
+  /// The number of the frame that frame() runs next, from 0.
   std::uint64_t next_frame() const noexcept;
   const PipelineOptions& options() const noexcept;
 

@@ -16,6 +16,7 @@ class MemoryResource {
   virtual ~MemoryResource() = default;
   /// `bytes` of memory, aligned to `alignment`. Throws std::bad_alloc.
   virtual void* allocate(std::size_t bytes, std::size_t alignment) = 0;
+  /// Takes back what allocate() gave for the same size and alignment.
   virtual void release(void* block, std::size_t bytes, std::size_t alignment) noexcept = 0;
 };
 

@@ -11,6 +11,7 @@
 
 namespace bodice::inline v0_1::engine {
 
+/// A bijection of 64 bits. A changed bit of z changes about half of the bits of the result.
 constexpr std::uint64_t mix64(std::uint64_t z) {
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
   z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
@@ -30,7 +31,9 @@ class Random {
     return static_cast<double>(bits_at(k) >> 11) * 0x1.0p-53;
   }
 
+  /// The next 64 random bits.
   constexpr std::uint64_t bits() { return bits_at(next_++); }
+  /// The next value in [0, 1), and in [low, high).
   constexpr double uniform() { return uniform_at(next_++); }
   constexpr double uniform(double low, double high) { return low + (high - low) * uniform(); }
   /// An integer in [0, n), n > 0, with bias below n / 2^53.

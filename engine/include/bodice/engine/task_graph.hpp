@@ -134,6 +134,7 @@ class GraphBuilder {
     return output;
   }
 
+  /// Fills in a task that declare() added. `function` is as in add().
   template <class T, class F, class... In>
   void define(const Output<T>& output, F function, const Output<In>&... inputs) {
     set_body(output.node_, output.slot_,
@@ -219,6 +220,7 @@ class TaskGraph {
   TaskGraph(TaskGraph&&) noexcept;
   TaskGraph& operator=(TaskGraph&&) noexcept;
 
+  /// Sets an input, for all runs until it is set again.
   template <class T>
   void set(const Output<T>& input, T value) {
     input.slot_->value.emplace(std::move(value));
@@ -230,6 +232,7 @@ class TaskGraph {
   /// failed task that comes first in topological order; rethrows an exception of a task by the same rule.
   /// Which error is reported does not depend on timing.
   Result<void> run(const Context& context);
+  /// The same, and calls on_progress after each task.
   Result<void> run(const Context& context, OnProgress on_progress);
 
   /// The result of a task if it ended in the last run, else null, so that a stopped run never shows results
@@ -251,6 +254,7 @@ class TaskGraph {
     return std::move(*output.slot_->value);
   }
 
+  /// The number of tasks; inputs do not count.
   std::size_t size() const;
   /// The graph in the DOT language: inputs are boxes, edges run with the data.
   std::string dump_dot() const;

@@ -17,12 +17,14 @@ class Job final : public BackgroundTask {
  public:
   using Work = std::function<Result<void>(Job&, const Context&)>;
 
+  /// The work is canceled when the context is, or by cancel().
   Job(std::string name, const Context& context, Work work);
 
   const char* name() const noexcept override { return name_.c_str(); }
   /// Runs the work unless another thread has begun it. An exception becomes an error of kInternal.
   void run() noexcept override;
 
+  /// Requests the work to stop, which it does at its next checkpoint.
   void cancel() noexcept { cancel_.cancel(); }
   bool canceled() const noexcept { return cancel_.token().canceled(); }
   CancelToken token() const { return cancel_.token(); }
@@ -34,7 +36,9 @@ class Job final : public BackgroundTask {
 
   /// The number of publications and of the end, for waiting without polling.
   std::uint32_t events() const noexcept { return events_.load(std::memory_order_acquire); }
+  /// Waits while events() is `seen`.
   void wait_for_event_after(std::uint32_t seen) const noexcept { events_.wait(seen); }
+  /// Counts an event and wakes the threads that wait for it.
   void signal() noexcept;
 
  private:
@@ -61,6 +65,7 @@ class Ticket {
   void cancel() noexcept {
     if (job_) job_->cancel();
   }
+  /// Whether the work is over, and so for a ticket without work. Never waits.
   bool done() const noexcept { return !job_ || job_->done(); }
   /// Waits until the work is over and returns its error, kCanceled if it was stopped, or success. Must not be
   /// called in a frame.

@@ -33,6 +33,7 @@ struct TraceEvent {
 /// construction; when it is full, later events are counted and dropped.
 class Trace {
  public:
+  /// Makes room for so many events.
   explicit Trace(std::size_t capacity = 1u << 16);
   ~Trace();
   Trace(const Trace&) = delete;

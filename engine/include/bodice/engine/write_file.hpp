@@ -16,6 +16,7 @@ namespace bodice::inline v0_1::engine {
 /// then it is refused. A pipe or device is written to directly. Fails with kWriteFailed and leaves nothing
 /// behind.
 Result<void> write_file(const std::filesystem::path& file, std::span<const std::byte> bytes);
+/// The same for text.
 Result<void> write_file(const std::filesystem::path& file, std::string_view text);
 
 /// While one lives, write_file() on its thread does not wait for the disk. For files of a folder that

@@ -40,6 +40,7 @@ class Poser {
   Poser(Poser&&) noexcept;
   Poser& operator=(Poser&&) noexcept;
 
+  /// The number of joints, #J, that pose() takes.
   std::size_t joints() const noexcept;
 
   /// Moves the joints: joint space to world of each joint, #J, meters. A matrix may be off by rounding, up to
@@ -71,6 +72,7 @@ class Poser {
   const proxy::PosedProxy& posed() const noexcept;
   /// The pose before, valid until the next call.
   const proxy::PosedProxy& previous() const noexcept;
+  /// The proxy that this poses.
   const proxy::BodyProxy& bound() const noexcept;
   std::uint64_t poses() const noexcept;  ///< successful calls of pose()
 

@@ -52,10 +52,12 @@ inline constexpr std::array<std::string_view, kJointCount> kJointNames = {
     "hand_l",     "hand_r",      "thigh_l",      "thigh_r",     "calf_l",    "calf_r",
     "foot_l",     "foot_r",      "toes_l",       "toes_r"};
 
+/// The name of a joint in files and messages, such as "upper_arm_l".
 constexpr std::string_view name(JointId id) {
   return kJointNames[static_cast<int>(id)];
 }
 
+/// The joint of a name; nothing if no joint has it.
 constexpr std::optional<JointId> joint_from_name(std::string_view text) {
   for (int i = 0; i < kJointCount; ++i)
     if (kJointNames[i] == text) return static_cast<JointId>(i);

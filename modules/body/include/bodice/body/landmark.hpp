@@ -48,6 +48,7 @@ inline constexpr std::array<std::string_view, kLandmarkCount> kLandmarkNames = {
     "neck_back", "neck_side_l", "neck_side_r", "shoulder_l",  "shoulder_r", "bust_l",  "bust_r",
     "underbust", "waist",       "hip",         "wrist_l",     "wrist_r",    "ankle_l", "ankle_r"};
 
+/// The name of a landmark in files and messages, such as "fingertip_l".
 constexpr std::string_view name(LandmarkId id) {
   return kLandmarkNames[static_cast<int>(id)];
 }

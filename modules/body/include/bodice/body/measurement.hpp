@@ -70,6 +70,7 @@ inline constexpr std::array<std::string_view, kMeasurementCount> kMeasurementNam
                                                                                       "crotch_hip_diff",
                                                                                       "leg_circ"};
 
+/// The name of a measurement in files and messages, such as "waist_line".
 constexpr std::string_view name(MeasurementId id) {
   return kMeasurementNames[static_cast<int>(id)];
 }

@@ -42,10 +42,12 @@ inline constexpr std::array<std::string_view, kAllPartCount> kPartNames = {
     "part_2",      "part_3",    "part_4",    "part_5",   "part_6",   "part_7",   "part_8",   "part_9",
     "part_10",     "part_11",   "part_12",   "part_13",  "part_14",  "part_15",  "part_16"};
 
+/// The name of a part in files and messages, such as "forearm_l".
 constexpr std::string_view name(Part part) {
   return kPartNames[static_cast<std::size_t>(part)];
 }
 
+/// The part of a name, of a body or of a thing; nothing if no part has it.
 constexpr std::optional<Part> part_from_name(std::string_view text) {
   for (std::size_t i = 0; i < kAllPartCount; ++i)
     if (kPartNames[i] == text) return static_cast<Part>(i);
@@ -57,10 +59,12 @@ constexpr Part thing_part(int index) {
   return static_cast<Part>(static_cast<int>(Part::kThing) + index);
 }
 
+/// Whether a part is one of a thing, and not of a body.
 constexpr bool is_of_thing(Part part) {
   return part >= Part::kThing;
 }
 
+/// Whether a part is one of the six of the torso.
 constexpr bool is_torso(Part part) {
   return part >= Part::kTorsoUL && part <= Part::kTorsoLR;
 }

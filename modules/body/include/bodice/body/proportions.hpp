@@ -37,6 +37,7 @@ struct ProportionProfile {
   std::string name;  ///< "gb10000-88", "ansur2" or the custom file's
   Proportions female;
   Proportions male;
+  /// The proportions of one sex.
   const Proportions& of(Sex sex) const { return sex == Sex::kFemale ? female : male; }
   /// The mean of both sexes, for a body of unknown sex.
   Proportions either() const;

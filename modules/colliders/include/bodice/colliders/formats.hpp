@@ -26,7 +26,9 @@ struct FormatFacts {
   std::string_view other_extension = "";  ///< of a second form of the same, if there is one
 };
 
+/// The facts of a format.
 const FormatFacts& facts(Format format);
+/// The format of a name, such as "unity"; nothing if no format has it.
 std::optional<Format> format_from_name(std::string_view text);
 
 /// The text of a file. `shapes` is not read where the format takes ellipsoids. Fails with kInvalidArgument

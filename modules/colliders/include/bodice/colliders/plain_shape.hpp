@@ -47,6 +47,7 @@ ShapeDistance shape_distance(const PlainShape& shape, const Vec3& point);
 /// for a tenth of the exact distance's cost.
 class BoundingBall {
  public:
+  /// The ball around a valid shape. O(1).
   explicit BoundingBall(const PlainShape& shape);
 
   /// Whether the shape is surely farther from the point than a distance, in meters.

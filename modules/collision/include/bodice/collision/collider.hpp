@@ -99,6 +99,7 @@ struct ContactReport {
   std::uint64_t not_finite = 0;      ///< NaN or infinite, and not moved
   std::uint32_t max_iterations = 0;  ///< largest number of pushes of one particle
   float deepest_m = 0.0f;            ///< depth of the deepest particle before the response
+  /// Adds the counts of another set of particles; of deepest_m and max_iterations the larger one remains.
   void add(const ContactReport& other);
 };
 
@@ -110,6 +111,7 @@ struct ContactReport {
 /// it is given, which outlives the workspace.
 class Workspace {
  public:
+  /// An empty workspace. The calls that it is given to allocate its arrays.
   explicit Workspace(engine::MemoryResource* memory = nullptr);
   ~Workspace();
   Workspace(Workspace&&) noexcept;
@@ -171,12 +173,14 @@ class Collider {
   /// 89 ellipsoids: 14 ns a particle on one core, with relief 26 (bench/README.md).
   void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
              const QueryOptions& options = {}) const;
+  /// The same, sorted and with candidates as the workspace keeps them.
   void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
              Workspace& workspace, const QueryOptions& options = {}) const;
   /// The same for particles in any other form (strided_particles.hpp), gathered batch by batch. Contacts are
   /// in the local frame, or where StridedParticles::shift_contacts has them.
   void query(const engine::Context& context, const StridedParticles& particles, std::span<Contact> contacts,
              Workspace& workspace, const QueryOptions& options = {}) const;
+  /// The contact of one point, meters in the local frame.
   Contact query(const float (&local_point)[3], const QueryOptions& options = {}) const noexcept;
   /// All ellipsoids within `within_m` of the point, nearest first, each with its own surface (and relief
   /// table). Returns their number, which may be more than `contacts` holds.
@@ -188,8 +192,10 @@ class Collider {
   /// Cost with a workspace and 89 ellipsoids: 26 ns a particle on one core, with relief 47 (bench/README.md).
   ContactReport resolve(const engine::Context& context, const Particles& particles,
                         const ResolveOptions& options) const;
+  /// The same, sorted and with candidates as the workspace keeps them.
   ContactReport resolve(const engine::Context& context, const Particles& particles,
                         const ResolveOptions& options, Workspace& workspace) const;
+  /// The same for particles in any other form, gathered and written back batch by batch.
   ContactReport resolve(const engine::Context& context, const StridedParticles& particles,
                         const ResolveOptions& options, Workspace& workspace) const;
 

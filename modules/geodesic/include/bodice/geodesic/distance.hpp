@@ -28,6 +28,7 @@ struct NearestSource {
 /// Distances by one run from several sources at once. Sources outside the graph are ignored. Cost: O(#links)
 /// where edges are of similar length; longer where their lengths spread, by at most that spread.
 Field distances(const EdgeGraph& graph, std::span<const Seed> seeds);
+/// The same from one vertex.
 Field distances_from(const EdgeGraph& graph, geometry::Index source);
 /// Distances up to `most` meters, with the same bits; kUnreachable beyond. Cost: that of the part within.
 Field distances_within(const EdgeGraph& graph, std::span<const Seed> seeds, float most);

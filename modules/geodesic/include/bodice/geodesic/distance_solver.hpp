@@ -17,6 +17,7 @@ enum class Method {
 /// temporaries do not compile. Const calls may run at the same time.
 class DistanceSolver {
  public:
+  /// Prepares what the method needs: a graph of the edges, or the edges around each vertex. O(#V + #F).
   DistanceSolver(const engine::Context& context, const geometry::TriMesh& mesh,
                  const geometry::MeshEdges& edges, Method method);
   DistanceSolver(const engine::Context&, const geometry::TriMesh&&, const geometry::MeshEdges&,
@@ -28,6 +29,7 @@ class DistanceSolver {
 
   /// Distances, #V, meters; kUnreachable where no source leads. Sources outside the mesh are ignored.
   Field distances(std::span<const Seed> seeds) const;
+  /// The same from one vertex.
   Field distances_from(geometry::Index source) const;
 
  private:

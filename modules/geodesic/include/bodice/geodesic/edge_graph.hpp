@@ -39,6 +39,7 @@ struct Bridge {
   geometry::Index from = 0, to = 0;
   float length = 0.0F;
 };
+/// A graph with these links besides its own. Where two vertices have several, all count. O(#links).
 EdgeGraph with_bridges(const EdgeGraph& graph, const std::vector<Bridge>& bridges);
 
 }  // namespace bodice::geodesic

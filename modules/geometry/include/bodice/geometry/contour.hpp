@@ -22,6 +22,7 @@ struct FieldGrid {
   std::array<std::size_t, 3> nodes{};  ///< along x, y and z
   std::vector<float> value;            ///< #nodes
 
+  /// The index of a node in `value`.
   std::size_t index(std::size_t x, std::size_t y, std::size_t z) const {
     return (z * nodes[1] + y) * nodes[0] + x;
   }
@@ -39,8 +40,11 @@ class NodeDistances {
  public:
   using Change = std::function<double(double distance_m, const Vec3& p)>;
 
+  /// The grid of sample_field() for this box and cell. No distance is taken yet.
   NodeDistances(DistanceField distance, const Box& box, double cell_m);
 
+  /// The values of one of the fields. Distances that no field needed before are taken now, by several
+  /// threads.
   FieldGrid sample(const engine::Context& context, const Change& change);
 
  private:

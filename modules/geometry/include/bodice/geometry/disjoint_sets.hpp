@@ -16,10 +16,12 @@ class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
 
+  /// The least member of the set that i is in.
   Index find(Index i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
+  /// Makes one set of the two that i and j are in.
   void unite(Index i, Index j) {
     i = find(i);
     j = find(j);

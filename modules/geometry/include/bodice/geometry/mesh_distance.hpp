@@ -34,6 +34,7 @@ class MeshDistance {
   /// The closest point if it is within `max_distance_m`, else nothing. Its distance carries NO sign: it is
   /// never negative. Cost: half that of closest_point().
   std::optional<SurfacePoint> closest_point_within(const Vec3& query, double max_distance_m) const;
+  /// The signed distance alone, at the same cost.
   double signed_distance(const Vec3& query) const { return closest_point(query).signed_distance; }
   /// The generalized winding number: 1 inside a closed mesh that is wound outward, 0 outside.
   double winding_number(const Vec3& query) const;

@@ -53,6 +53,8 @@ struct Components {
   std::vector<Index> of_vertex;
   std::vector<double> area;  ///< square meters, one a component
 };
+/// Finds the components of a mesh: triangles that share a vertex are connected. A vertex without a triangle
+/// is a component of its own. O(n log n).
 Components connected_components(const TriMesh& mesh);
 
 /// The `count` largest components of a mesh, with the vertices that their triangles use, in the order of

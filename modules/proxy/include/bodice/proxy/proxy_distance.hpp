@@ -52,6 +52,7 @@ struct TableStencil {
   std::array<std::uint32_t, 4> node;  ///< row-major, relative to first_texel
   std::array<double, 4> weight;
 };
+/// The stencil of a unit direction in a table of at least two nodes a side.
 TableStencil table_stencil(const Vec3& direction, int nodes_per_side);
 
 /// The proxy's distance at a point, with its gradient and owner.

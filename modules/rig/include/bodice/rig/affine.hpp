@@ -18,20 +18,24 @@ using Affine = Eigen::Matrix<double, 3, 4, Eigen::DontAlign>;
 /// The same for rotations that are stored.
 using Quaternion = Eigen::Quaternion<double, Eigen::DontAlign>;
 
+/// The map that leaves every point where it is.
 inline Affine identity() {
   return Affine::Identity();
 }
 
+/// The map x -> linear x + shift.
 inline Affine affine(const Mat3& linear, const Vec3& shift) {
   Affine map;
   map << linear, shift;
   return map;
 }
 
+/// The linear part of a map, without its shift.
 inline Mat3 linear_of(const Affine& map) {
   return map.leftCols<3>();
 }
 
+/// The image of a point.
 inline Vec3 apply(const Affine& map, const Vec3& point) {
   return map.leftCols<3>() * point + map.col(3);
 }

@@ -59,6 +59,7 @@ void dual_quaternions(std::span<const Affine> skinning, std::span<DualQuaternion
 /// linearly and applied first. Same shapes and promises as skin_linear.
 void skin_dual_quaternion(std::span<const Vec3> rest, const SkinWeights& weights,
                           std::span<const DualQuaternion> motion, std::span<Vec3> posed);
+/// The same by all workers of the context, with the same bits for any number of them. Throws Canceled.
 void skin_dual_quaternion(const engine::Context& context, std::span<const Vec3> rest,
                           const SkinWeights& weights, std::span<const DualQuaternion> motion,
                           std::span<Vec3> posed);

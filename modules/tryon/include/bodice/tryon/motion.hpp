@@ -32,6 +32,7 @@ class MotionPlayer {
   /// `ramp_s` is the length of the ramp; zero jumps. Keeps a reference to `motion`. Allocates.
   MotionPlayer(const BodyMotion& motion, double ramp_s, rig::Playback playback = rig::Playback::kClamp);
 
+  /// The length of the ramp, seconds.
   double ramp_s() const noexcept { return ramp_s_; }
   /// World matrix of each joint (joint space to world, #J) at a time. Allocates nothing.
   void joints(double time_s, std::span<rig::Affine> world);

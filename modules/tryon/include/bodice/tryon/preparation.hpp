@@ -44,6 +44,8 @@ using OnProxy = std::function<void(const std::shared_ptr<const SegmentedSkin>&, 
 ///         `-> distance field --^
 class Preparation {
  public:
+  /// Builds the tasks; none runs yet. `on_proxy` is called in run(), and may be empty. Fails where tasks do
+  /// not fit together, which is a bug.
   static engine::Result<Preparation> make(PreparationOptions options, OnProxy on_proxy);
 
   /// Prepares a body. Fails with the error of the first failed task; proxies published before stay valid.

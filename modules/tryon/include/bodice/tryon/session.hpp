@@ -76,6 +76,7 @@ struct FrameOutcome {
 /// context's executor.
 class Session {
  public:
+  /// A session without body and garments. The context's executor outlives it.
   Session(const engine::Context& context, SessionOptions options);
   /// Cancels the work in progress and waits for it.
   ~Session();

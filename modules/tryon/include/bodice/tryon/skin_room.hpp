@@ -16,6 +16,7 @@ namespace bodice::inline v0_1::tryon {
 /// Widths of the gaps of one skin. It refers to the mesh and its distance, which must outlive it.
 class SkinRoom {
  public:
+  /// `distance` is that of `skin`.
   SkinRoom(const geometry::TriMesh& skin, const geometry::MeshDistance& distance)
       : skin_(&skin), distance_(&distance) {}
 
