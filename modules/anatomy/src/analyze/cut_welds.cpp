@@ -22,6 +22,12 @@ using geometry::Vec3;
 /// Depths of thin copies, of the stature: 2, 9 and 14 mm. The first keeps the fingers, by which arms are
 /// measured, and serves where webs are all there is; what one does not part, the next may.
 constexpr std::array kDepths = {0.0012, 0.0053, 0.0082};
+/// Where no depth parts the limbs, walls through necks of these shares of the limbs' depths may.
+constexpr std::array kNecks = {0.92, 0.95, 0.88};
+/// Walls need no deep copy: so many of the depths are tried with them.
+constexpr std::size_t kWalledDepths = 2;
+/// Area to squared length of a body is below this: .55 to .85, of a heavy one .9.
+constexpr double kMostArea = 1.0;
 /// A web hides an armpit or the crotch where the thin copy has it higher by this much of the stature; without
 /// webs it is .003.
 constexpr double kHidden = 0.01;
@@ -94,18 +100,22 @@ struct Parted {
 
 /// What a web hides may be one more, so that each cut is followed by another look.
 std::optional<Parted> part(const WeldedBody& body, double depth, std::vector<Web> webs) {
-  for (int pass = 1;; ++pass) {
+  std::optional<Parted> best;
+  const bool walled = body.skin.has_walls();
+  for (int pass = 1; pass <= kPasses; ++pass) {
     auto thin = body.skin.thin_copy(body.context, depth, webs);
-    if (!thin) return std::nullopt;
+    if (!thin) return best;
     auto found = body.analyze(body.context, thin->mesh, body.options);
-    if (!found) return std::nullopt;
+    if (!found) return best;
     std::vector<Web> more = find_webs(body.context, thin->mesh, *found);
-    if (more.empty() || pass == kPasses) {
-      if (is_welded(found) || !contradictions(thin->mesh, *found).empty()) return std::nullopt;
-      return Parted{std::move(*thin), std::move(*found), std::move(more)};
-    }
+    const bool good = !is_welded(found) && contradictions(thin->mesh, *found).empty();
+    if (!good && (best || walled)) return best;
     webs.insert(webs.end(), more.begin(), more.end());
+    const bool last = more.empty();
+    if (good) best = Parted{std::move(*thin), std::move(*found), std::move(more)};
+    if (last) return best;
   }
+  return best;
 }
 
 /// Landmarks that webs lead astray are no longer trusted.
@@ -125,27 +135,46 @@ void doubt(const std::vector<Web>& webs, Anatomy& anatomy) {
   }
 }
 
+/// What is found on a thin copy, carried out to the skin, where that leaves no more in doubt than the skin as
+/// it is.
+std::optional<Anatomy> apart_at(const WeldedBody& body, double depth, const TriMesh& mesh,
+                                const std::vector<Web>& seen, const engine::Result<Anatomy>& as_is) {
+  const auto parted = part(body, depth, seen);
+  if (!parted) return std::nullopt;
+  Anatomy apart = carry_out(body.context, parted->thin, parted->found, mesh);
+  const std::string where = as_is ? folds(*as_is, apart) : "";
+  doubt(parted->left, apart);
+  if (as_is && doubts(apart) > doubts(*as_is) + static_cast<int>(seen.size())) return std::nullopt;
+  if (as_is) apart.stages = as_is->stages;
+  warn(where, parted->thin, apart);
+  return apart;
+}
+
+/// A skin with so much area for its length is that of two bodies, or has a floor in it.
+bool is_of_two(const TriMesh& mesh) {
+  const double length = geometry::bounding_box(mesh.positions).size().maxCoeff();
+  return geometry::surface_area(mesh) > kMostArea * length * length;
+}
+
 }  // namespace
 
 engine::Result<Anatomy> cut_welds(const engine::Context& context, const TriMesh& mesh, const Options& options,
                                   Analyze analyze) {
   auto as_is = analyze(context, mesh, options);
   const std::vector<Web> seen = as_is ? find_webs(context, mesh, *as_is) : std::vector<Web>{};
-  if (!is_welded(as_is) && seen.empty()) return as_is;
+  const bool welded = is_welded(as_is);
+  if (!welded && seen.empty()) return as_is;
   const MeshDistance distance(context, mesh);
-  auto skin = SampledSkin::make(mesh, distance);
-  const std::span depths =
-      skin ? std::span(kDepths).subspan(is_welded(as_is) ? 1 : 0) : std::span<const double>();
-  for (const double depth : depths) {
-    const auto parted = part({context, *skin, options, analyze}, depth, seen);
-    if (!parted) continue;
-    Anatomy apart = carry_out(context, parted->thin, parted->found, mesh);
-    const std::string where = as_is ? folds(*as_is, apart) : "";
-    doubt(parted->left, apart);
-    if (as_is && doubts(apart) > doubts(*as_is) + static_cast<int>(seen.size())) break;
-    if (as_is) apart.stages = as_is->stages;
-    warn(where, parted->thin, apart);
-    return apart;
+  if (auto skin = SampledSkin::make(mesh, distance)) {
+    const WeldedBody body{context, *skin, options, analyze};
+    for (const double depth : std::span(kDepths).subspan(welded ? 1 : 0))
+      if (auto apart = apart_at(body, depth, mesh, seen, as_is)) return std::move(*apart);
+    for (const double neck : kNecks) {
+      if (!welded || is_of_two(mesh)) break;
+      skin->wall_limbs(context, distance, neck);
+      for (const double depth : std::span(kDepths).first(kWalledDepths))
+        if (auto apart = apart_at(body, depth, mesh, seen, as_is)) return std::move(*apart);
+    }
   }
   if (as_is) doubt(seen, *as_is);
   return as_is;

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <queue>
 
+#include <bodice/engine/parallel.hpp>
 #include <bodice/geometry/mesh_edges.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 
+#include "analyze/limb_walls.hpp"
 #include "landmarks/stature.hpp"
 
 namespace bodice::inline v0_1::anatomy {
@@ -165,13 +167,32 @@ std::optional<ThinCopy> SampledSkin::thin_copy(const engine::Context& context, d
     for (const Cut& cut : cuts) outside = std::max(outside, cut.depth(p));
     return outside;
   };
-  const TriMesh all = contour(context, distances_.sample(context, below_or_cut));
+  geometry::FieldGrid grid = distances_.sample(context, below_or_cut);
+  for (std::size_t i = 0; i < wall_.size(); ++i)
+    if (wall_[i] && grid.value[i] < 0.0F) grid.value[i] = static_cast<float>(0.25 * cell_);
+  const TriMesh all = contour(context, grid);
   if (all.empty()) return std::nullopt;
   auto repaired =
       geometry::repair(context, geometry::largest_components(all, geometry::connected_components(all), 1));
   if (!repaired) return std::nullopt;
   thin.mesh = std::move(repaired->mesh);
   return thin;
+}
+
+void SampledSkin::wall_limbs(const engine::Context& context, const MeshDistance& distance, double neck) {
+  if (depth_.value.empty()) {
+    depth_ = distances_.sample(context, [](double d, const Vec3&) { return d; });
+    const auto [nx, ny, nz] = depth_.nodes;
+    engine::parallel_for(context, ny * nz, 1, [&](std::size_t row, std::size_t) {
+      for (std::size_t x = 0; x < nx; ++x) {
+        float& value = depth_.value[depth_.index(x, row % ny, row / ny)];
+        const Vec3 node(static_cast<double>(x), static_cast<double>(row % ny), static_cast<double>(row / ny));
+        const Vec3 at = depth_.low + depth_.cell_m * node;
+        value = value < 0.0F ? static_cast<float>((distance.closest_point(at).point - at).norm()) : -1.0F;
+      }
+    });
+  }
+  wall_ = limb_walls(depth_, neck);
 }
 
 Anatomy carry_out(const engine::Context& context, const ThinCopy& thin, const Anatomy& found,

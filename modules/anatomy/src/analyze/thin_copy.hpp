@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include <bodice/anatomy/anatomy.hpp>
 #include <bodice/geometry/contour.hpp>
@@ -34,6 +35,10 @@ class SampledSkin {
   /// the same skin.
   std::optional<ThinCopy> thin_copy(const engine::Context& context, double depth_share,
                                     std::span<const Web> webs);
+  /// Parts limbs in all copies that follow where limb_walls does. Cost: half a second, less when called
+  /// again.
+  void wall_limbs(const engine::Context& context, const geometry::MeshDistance& distance, double neck);
+  bool has_walls() const { return !wall_.empty(); }
 
  private:
   SampledSkin(double height, double cell, geometry::NodeDistances distances)
@@ -41,6 +46,8 @@ class SampledSkin {
 
   double height_, cell_;
   geometry::NodeDistances distances_;
+  geometry::FieldGrid depth_;  ///< below the skin, negative outside; empty until it is needed
+  std::vector<char> wall_;     ///< #nodes, or empty
 };
 
 /// Carries what was found on a thin copy over to its skin. Parts spread along the skin from where it lies

@@ -1,0 +1,13 @@
+// Limbs followed to where the slices no longer show them.
+#pragma once
+
+#include "analyze/limb_tracks.hpp"
+
+namespace bodice::inline v0_1::anatomy {
+
+/// Joins a limb that is lost in some slices and comes out again. An arm that merges with the trunk below its
+/// armpit goes on to the side of the shoulder, and one that comes out of what it touches goes on down by the
+/// length of a hand.
+void follow_limbs(const Slices& slices, LimbTracks& limbs);
+
+}  // namespace bodice::anatomy
