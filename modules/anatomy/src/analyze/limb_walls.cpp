@@ -122,8 +122,15 @@ class Walls {
     if (a == b || a == kNoTrack || b == kNoTrack) return false;
     const bool legs = slice_b < crotch_ && is(leg_, a) && is(leg_, b);
     if (!legs && !is(arm_, a) && !is(arm_, b)) return false;
-    // What ends below goes on above in what it merges into.
-    return slice_a == slice_b || limbs_[a].last != slice_a || limbs_[a].above == kNoTrack;
+    return slice_a == slice_b || limbs_[a].last != slice_a || !goes_on_in(a, b);
+  }
+
+  /// What ends goes on in what it merges into: in no other limb.
+  bool goes_on_in(int ended, int above) const {
+    int into = limbs_[ended].above;
+    if (into == kNoTrack) return false;
+    while (limbs_[into].renamed != kNoTrack) into = limbs_[into].renamed;
+    return above == into || (!is(arm_, above) && !is(leg_, above));
   }
 
   const Slices& slices_;
