@@ -1,4 +1,7 @@
+#include <algorithm>
+
 #include <doctest/doctest.h>
+#include <Eigen/Geometry>
 
 #include <bodice/geometry/mesh_edges.hpp>
 #include <bodice/geometry/rebuild.hpp>
@@ -30,4 +33,26 @@ TEST_CASE("a sphere with holes is rebuilt closed, with the volume of the ball") 
   CHECK(signed_volume(rebuilt.mesh) == doctest::Approx(4.18879).epsilon(0.03));
   CHECK(rebuilt.measured_share > 0.85);
   CHECK(rebuilt.measured_share < 0.99);
+}
+
+TEST_CASE("parts that are thinner than a cell are rebuilt, and a floor that the body stands on is not") {
+  const double cell_m = 0.05;
+  // A finger of 0.4 cells of radius that comes out of the ball by 8 cells.
+  TriMesh finger = bodice_test::cylinder(0.02, 0.5, 12, 40);
+  const Vec3 out = Vec3(0.3, 0.4, 1.0).normalized();
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitY(), out);
+  for (Vec3& p : finger.positions) p = 1.15 * out + turn * p;
+  TriMesh floor = bodice_test::sheet(6.0, 6.0, 60, 60);
+  for (Vec3& p : floor.positions) p.y() -= 1.0;
+  const TriMesh body = bodice_test::joined(bodice_test::icosphere(1.0, 4), finger);
+  const RebuiltSurface rebuilt = rebuild({}, bodice_test::joined(body, floor), cell_m);
+  CHECK(mesh_edges(rebuilt.mesh).boundary == 0);
+  double reach = 0.0;
+  for (const Vec3& p : rebuilt.mesh.positions) reach = std::max(reach, p.dot(out));
+  CHECK(reach > 1.4 - cell_m);
+  CHECK(reach < 1.4 + cell_m);
+  CHECK(rebuilt.lost_share < 1e-4);
+  const Box box = bounding_box(rebuilt.mesh.positions);
+  CHECK(box.high.x() < 1.2);
+  CHECK(box.low.x() > -1.2);
 }

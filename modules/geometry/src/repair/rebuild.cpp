@@ -3,12 +3,15 @@
 #include <bodice/geometry/rebuild.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <bodice/engine/parallel.hpp>
 #include <bodice/geometry/contour.hpp>
+#include <bodice/geometry/disjoint_sets.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
+#include <bodice/geometry/triangle.hpp>
 
 namespace bodice::inline v0_1::geometry {
 namespace {
@@ -19,6 +22,11 @@ constexpr double kMeasuredCells = 1.0;
 constexpr double kAlongNormal = 0.9;
 /// Components below this share of the largest one's area are bubbles and debris.
 constexpr double kSmallest = 0.01;
+/// Cells from the contour to data that is too thin for it, and from the finished surface to data that it has
+/// lost; what lies farther than the last is something else.
+constexpr double kThinFrom = 1.25, kLostFrom = 2.0, kLostUpTo = 12.0;
+/// How much thicker lost parts become to either side, in cells: a contour keeps what is thicker than one.
+constexpr double kThicker = 0.75;
 /// Passes that even out what closes a hole, and the share of each step.
 constexpr int kSmoothings = 20;
 constexpr double kSmoothing = 0.5;
@@ -29,6 +37,94 @@ TriMesh without_small_components(const TriMesh& mesh) {
   const auto kept =
       std::count_if(area.begin(), area.end(), [&](double one) { return !(one < kSmallest * area.front()); });
   return largest_components(mesh, components, static_cast<std::size_t>(kept));
+}
+
+/// Puts the border of the grid outside. Sheets that lie on each other wind around a region that reaches
+/// beyond them all, and a contour that runs into the border is open.
+void close_border(FieldGrid& grid) {
+  const auto [nx, ny, nz] = grid.nodes;
+  const auto put_outside = [&](std::size_t x, std::size_t y, std::size_t z) {
+    float& value = grid.value[grid.index(x, y, z)];
+    if (!(value > 0.0f)) value = static_cast<float>(grid.cell_m);
+  };
+  for (std::size_t z = 0; z < nz; ++z)
+    for (std::size_t y = 0; y < ny; ++y) {
+      const bool face = z == 0 || y == 0 || z + 1 == nz || y + 1 == ny;
+      for (std::size_t x = 0; x < nx; x += face || nx < 2 ? 1 : nx - 1) put_outside(x, y, z);
+    }
+}
+
+/// Marks the triangles of the data that are farther than `from_m` from the surface. What is farther than
+/// `up_to_m` in one piece with them is something else, such as a floor.
+std::vector<char> find_lost(const engine::Context& context, const TriMesh& data, const TriMesh& surface,
+                            double from_m, double up_to_m) {
+  const MeshDistance distance(context, surface);
+  std::vector<char> beside(data.triangles.size()), far(data.triangles.size());
+  engine::parallel_for(context, beside.size(), 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const Vec3 at = (data.corner(t, 0) + data.corner(t, 1) + data.corner(t, 2)) / 3.0;
+      beside[t] = !distance.closest_point_within(at, from_m);
+      far[t] = beside[t] && !distance.closest_point_within(at, up_to_m);
+    }
+  });
+  DisjointSets pieces(data.positions.size());
+  for (std::size_t t = 0; t < beside.size(); ++t)
+    for (int k = 0; beside[t] && k < 2; ++k) pieces.unite(data.triangles[t][k], data.triangles[t][k + 1]);
+  std::vector<char> is_else(data.positions.size());
+  for (std::size_t t = 0; t < far.size(); ++t)
+    if (far[t]) is_else[pieces.find(data.triangles[t][0])] = true;
+  for (std::size_t t = 0; t < beside.size(); ++t)
+    if (beside[t] && is_else[pieces.find(data.triangles[t][0])]) beside[t] = false;
+  return beside;
+}
+
+double share_of(const std::vector<char>& chosen, const TriMesh& mesh) {
+  double all = 0.0, sum = 0.0;
+  for (std::size_t t = 0; t < chosen.size(); ++t) {
+    const double area = area_vector(mesh, t).norm();
+    all += area;
+    sum += chosen[t] ? area : 0.0;
+  }
+  return all > 0.0 ? sum / all : 0.0;
+}
+
+/// Puts the nodes around a triangle inside.
+void thicken(const TriMesh& data, std::size_t t, FieldGrid& grid) {
+  const double reach_m = kThicker * grid.cell_m;
+  Box box;
+  for (int k = 0; k < 3; ++k) box.extend(data.corner(t, k));
+  std::array<std::size_t, 3> first, last;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto node = [&](double at) {
+      const double most = static_cast<double>(grid.nodes[static_cast<std::size_t>(axis)] - 1);
+      return static_cast<std::size_t>(std::clamp((at - grid.low[axis]) / grid.cell_m, 0.0, most));
+    };
+    const auto k = static_cast<std::size_t>(axis);
+    first[k] = node(box.low[axis] - reach_m), last[k] = node(box.high[axis] + reach_m + grid.cell_m);
+  }
+  for (std::size_t z = first[2]; z <= last[2]; ++z)
+    for (std::size_t y = first[1]; y <= last[1]; ++y)
+      for (std::size_t x = first[0]; x <= last[0]; ++x) {
+        const Vec3 at = grid.low + grid.cell_m * Vec3(static_cast<double>(x), static_cast<double>(y),
+                                                      static_cast<double>(z));
+        const Vec3 on = closest_point(data.corner(t, 0), data.corner(t, 1), data.corner(t, 2), at).point;
+        float& value = grid.value[grid.index(x, y, z)];
+        value = std::min(value, static_cast<float>((on - at).norm() - reach_m));
+      }
+}
+
+/// The contour of the grid, in which parts that are thinner than a cell, such as fingers, are kept: what a
+/// first contour loses is made thicker. Its vertices are moved onto the data later, as all others.
+TriMesh contour_with_thin_parts(const engine::Context& context, const TriMesh& data, FieldGrid& grid) {
+  TriMesh out = without_small_components(contour(context, grid));
+  if (out.empty()) return out;
+  const std::vector<char> lost =
+      find_lost(context, data, out, kThinFrom * grid.cell_m, kLostUpTo * grid.cell_m);
+  if (std::ranges::count(lost, char{1}) == 0) return out;
+  for (std::size_t t = 0; t < lost.size(); ++t)
+    if (lost[t]) thicken(data, t, grid);
+  close_border(grid);
+  return without_small_components(contour(context, grid));
 }
 
 /// Moves vertices onto the data where it is near, along its normal: at a rim they would all meet in one line.
@@ -66,21 +162,6 @@ void smooth_made_up(RebuiltSurface& out) {
   }
 }
 
-/// Puts the border of the grid outside. Sheets that lie on each other wind around a region that reaches
-/// beyond them all, and a contour that runs into the border is open.
-void close_border(FieldGrid& grid) {
-  const auto [nx, ny, nz] = grid.nodes;
-  const auto put_outside = [&](std::size_t x, std::size_t y, std::size_t z) {
-    float& value = grid.value[grid.index(x, y, z)];
-    if (!(value > 0.0f)) value = static_cast<float>(grid.cell_m);
-  };
-  for (std::size_t z = 0; z < nz; ++z)
-    for (std::size_t y = 0; y < ny; ++y) {
-      const bool face = z == 0 || y == 0 || z + 1 == nz || y + 1 == ny;
-      for (std::size_t x = 0; x < nx; x += face || nx < 2 ? 1 : nx - 1) put_outside(x, y, z);
-    }
-}
-
 double measured_share(const RebuiltSurface& surface) {
   double all = 0.0, measured = 0.0;
   for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
@@ -98,12 +179,13 @@ RebuiltSurface rebuild(const engine::Context& context, const TriMesh& surface, d
   RebuiltSurface out;
   FieldGrid grid = sample_inside(context, data, bounding_box(surface.positions), cell_m);
   close_border(grid);
-  const TriMesh all = contour(context, grid);
-  if (all.empty()) return out;
-  out.mesh = without_small_components(all);
+  out.mesh = contour_with_thin_parts(context, surface, grid);
+  if (out.mesh.empty()) return out;
   snap(context, data, kMeasuredCells * cell_m, out);
   smooth_made_up(out);
   out.measured_share = measured_share(out);
+  out.lost_share =
+      share_of(find_lost(context, surface, out.mesh, kLostFrom * cell_m, kLostUpTo * cell_m), surface);
   return out;
 }
 

@@ -38,13 +38,9 @@ constexpr double kWellWound = 0.6;
 /// A rebuilt skin with less of its area on the data is made up.
 constexpr double kLeastMeasured = 0.5;
 
-/// Cells from the closed skin to what was lost of the file.
-constexpr double kLostFrom = 2.0, kLostUpTo = 8.0;
 /// A closed skin that lost more than this share of the file's area lacks some toes or a finger. Scans that
 /// keep them lose up to .0006.
 constexpr double kMuchLost = 0.0015;
-/// A larger lost share than this is a floor beside the body.
-constexpr double kFloor = 0.02;
 
 double openness(const TriMesh& mesh) {
   const geometry::MeshEdges edges = geometry::mesh_edges(mesh);
@@ -54,27 +50,6 @@ double openness(const TriMesh& mesh) {
       length += (mesh.positions[edges.ends[e][0]] - mesh.positions[edges.ends[e][1]]).norm();
   const double area = surface_area(mesh);
   return area > 0.0 ? length / std::sqrt(area) : 0.0;
-}
-
-/// The share of the file's surface that lies beside the closed skin: tips that are thinner than its cells are
-/// lost. What lies farther was left out on purpose.
-double lost_share(const engine::Context& context, const TriMesh& file, const TriMesh& skin, double cell) {
-  const geometry::MeshDistance distance(context, skin);
-  std::vector<char> lost(file.triangles.size());
-  engine::parallel_for(context, lost.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      const Vec3 at = (file.corner(t, 0) + file.corner(t, 1) + file.corner(t, 2)) / 3.0;
-      lost[t] = !distance.closest_point_within(at, kLostFrom * cell) &&
-                distance.closest_point_within(at, kLostUpTo * cell).has_value();
-    }
-  });
-  double all = 0.0, sum = 0.0;
-  for (std::size_t t = 0; t < lost.size(); ++t) {
-    const double area = area_vector(file, t).norm();
-    all += area;
-    sum += lost[t] ? area : 0.0;
-  }
-  return all > 0.0 ? sum / all : 0.0;
 }
 
 /// The volume around the middle of the box, so that open surfaces count for what they enclose.
@@ -172,10 +147,10 @@ std::optional<ClosedSkin> close_skin(const engine::Context& context, const TriMe
   out.report.warnings = kept_warnings(repaired.report);
   out.report.warnings.push_back(
       rebuilt_warning(repaired.report.components, repaired.report.boundary_edges, rebuilt.measured_share));
-  if (const double lost = lost_share(context, surface, out.mesh, cell); lost > kMuchLost && lost < kFloor)
+  if (rebuilt.lost_share > kMuchLost)
     out.report.warnings.push_back(
         {"skin-lost", "",
-         "Some of the file's surface, " + std::to_string(std::lround(1e4 * lost)) +
+         "Some of the file's surface, " + std::to_string(std::lround(1e4 * rebuilt.lost_share)) +
              " of 10,000 parts, is not in the closed skin: tips of fingers or toes, or patches that lie "
              "apart.",
          "Check hands and feet; scan them from more sides, or close the mesh before."});
