@@ -35,8 +35,10 @@ class Flood {
         neck_(static_cast<float>(neck)),
         least_(static_cast<float>(kLeastDepth * slices.cell())),
         root_of_(slices.plane(), kNoTrack) {
+    // In a mesh that is no body, nodes at the border may be inside, too; they have no neighbors on one side.
     for (std::size_t i = 0; i < slices.plane(); ++i)
-      if (depth(i) > 0.0F) inside_.push_back(i);
+      if (depth(i) > 0.0F && slices.holds(static_cast<long>(slices.u(i)), static_cast<long>(slices.v(i))))
+        inside_.push_back(i);
     std::sort(inside_.begin(), inside_.end(), [&](std::size_t a, std::size_t b) {
       return depth(a) != depth(b) ? depth(a) > depth(b) : a < b;
     });

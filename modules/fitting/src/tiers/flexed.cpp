@@ -1,6 +1,8 @@
 #include "tiers/flexed.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
 
 #include <Eigen/LU>
@@ -22,6 +24,10 @@ constexpr double kBand = 0.020 / 1.7;
 /// Weight of the rigid part of a map, of the weight of its skin: flat skin leaves a direction open.
 constexpr double kRigid = 0.02;
 constexpr std::size_t kMostVertices = 16384;
+/// Ellipsoids that lie farther from the skin in the mean, as a share of the stature, have not been carried
+/// back well: skirts and coats do not bend as limbs do. Bodies have up to 0.0009.
+constexpr double kFarOff = 0.002;
+constexpr std::size_t kMostChecked = 4096;
 
 /// The skin near an ellipsoid in both poses, as moments about its center.
 struct Moments {
@@ -124,6 +130,28 @@ void carry_back(const engine::Context& context, const LabeledSkin& skin, std::sp
     ellipsoids[k].shape = carried(ellipsoids[k].shape, moments[k]);
 }
 
+/// The mean distance between the skin and the surface of the ellipsoids, at some of the vertices.
+double mean_error_m(const engine::Context& context, const LabeledSkin& skin, const Draft& draft) {
+  const std::vector<Vec3>& positions = skin.mesh.positions;
+  const std::size_t step = std::max<std::size_t>(1, positions.size() / kMostChecked);
+  const std::size_t count = (positions.size() + step - 1) / step;
+  const double sum = engine::ordered_reduce(
+      context, count, 64, 0.0,
+      [&](std::size_t begin, std::size_t end) {
+        double some = 0.0;
+        for (std::size_t i = begin; i < end; ++i) {
+          double least = std::numeric_limits<double>::infinity();
+          for (const auto& e : draft.data.ellipsoids)
+            if (outside_sphere(e.shape, positions[i * step]) < least)
+              least = std::min(least, geometry::closest_point(e.shape, positions[i * step]).signed_distance);
+          some += std::abs(least);
+        }
+        return some;
+      },
+      std::plus<>());
+  return sum / static_cast<double>(std::max<std::size_t>(1, count));
+}
+
 }  // namespace
 
 std::vector<Ellipsoid> carry_ellipsoids(const engine::Context& context,
@@ -148,7 +176,10 @@ Draft fit_tight_flexed(const engine::Context& context, const SkinSource& source,
   const SkinSource flexed_source = make_skin_source(context, flexed, options.parts);
   Draft draft = fit_tight(context, flexed_source, there, count, time_budget_s);
   carry_back(context, skin, options.flexed, draft.data.ellipsoids);
-  return draft;
+  const double error_m = mean_error_m(context, skin, draft);
+  if (error_m <= kFarOff * skin.stature_m) return draft;
+  Draft as_it_is = fit_tight(context, source, options, count, time_budget_s);
+  return mean_error_m(context, skin, as_it_is) < error_m ? as_it_is : draft;
 }
 
 }  // namespace bodice::fitting

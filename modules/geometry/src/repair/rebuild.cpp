@@ -54,28 +54,31 @@ void close_border(FieldGrid& grid) {
     }
 }
 
-/// Marks the triangles of the data that are farther than `from_m` from the surface. What is farther than
-/// `up_to_m` in one piece with them is something else, such as a floor.
+/// Marks the triangles of the data with a corner that is farther than `from_m` from the surface. What is
+/// farther than `up_to_m` in one piece with them is something else, such as a floor.
 std::vector<char> find_lost(const engine::Context& context, const TriMesh& data, const TriMesh& surface,
                             double from_m, double up_to_m) {
   const MeshDistance distance(context, surface);
-  std::vector<char> beside(data.triangles.size()), far(data.triangles.size());
+  std::vector<char> beside(data.positions.size()), far(data.positions.size());
   engine::parallel_for(context, beside.size(), 512, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      const Vec3 at = (data.corner(t, 0) + data.corner(t, 1) + data.corner(t, 2)) / 3.0;
-      beside[t] = !distance.closest_point_within(at, from_m);
-      far[t] = beside[t] && !distance.closest_point_within(at, up_to_m);
+    for (std::size_t v = begin; v < end; ++v) {
+      beside[v] = !distance.closest_point_within(data.positions[v], from_m);
+      far[v] = beside[v] && !distance.closest_point_within(data.positions[v], up_to_m);
     }
   });
   DisjointSets pieces(data.positions.size());
-  for (std::size_t t = 0; t < beside.size(); ++t)
-    for (int k = 0; beside[t] && k < 2; ++k) pieces.unite(data.triangles[t][k], data.triangles[t][k + 1]);
+  std::vector<char> lost(data.triangles.size());
+  for (std::size_t t = 0; t < lost.size(); ++t) {
+    const Triangle& corners = data.triangles[t];
+    lost[t] = std::ranges::any_of(corners, [&](Index v) { return beside[v] != 0; });
+    for (std::size_t k = 0; lost[t] && k < 2; ++k) pieces.unite(corners[k], corners[k + 1]);
+  }
   std::vector<char> is_else(data.positions.size());
-  for (std::size_t t = 0; t < far.size(); ++t)
-    if (far[t]) is_else[pieces.find(data.triangles[t][0])] = true;
-  for (std::size_t t = 0; t < beside.size(); ++t)
-    if (beside[t] && is_else[pieces.find(data.triangles[t][0])]) beside[t] = false;
-  return beside;
+  for (Index v = 0; v < far.size(); ++v)
+    if (far[v]) is_else[pieces.find(v)] = true;
+  for (std::size_t t = 0; t < lost.size(); ++t)
+    if (lost[t] && is_else[pieces.find(data.triangles[t][0])]) lost[t] = false;
+  return lost;
 }
 
 double share_of(const std::vector<char>& chosen, const TriMesh& mesh) {
