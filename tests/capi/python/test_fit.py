@@ -160,6 +160,8 @@ class Fits(unittest.TestCase):
         moved[:, 0, 3] += 1.0
         body.pose(moved)
         self.assertLess(np.abs(body.signed_distance(points + [1.0, 0, 0]) - rest).max(), 1e-4)
+        with self.assertRaisesRegex(bodice.Error, "was posed"):
+            body.signed_distance(points, exact=True)
 
     def test_a_saved_proxy_is_bound_without_another_fit(self):
         saved = bodice.Body(self.body.to_bytes())

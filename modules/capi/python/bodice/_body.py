@@ -40,6 +40,7 @@ class Body:
     def _adopt(self, context: "_c.Handle", proxy: "_c.Handle") -> None:
         self._context, self._proxy = context, proxy
         self._exact: Optional[Exact] = None
+        self._posed = False
         self._collider = _c.Handle("bodice_collider", _c.library.bodice_collider_create, self._context, self._proxy)
         self._spare: list = []  # workspaces that no call uses
         self._lock = threading.Lock()
@@ -101,8 +102,8 @@ class Body:
     def signed_distance(self, points: np.ndarray, within: float = float("inf"), fast: bool = False,
                         exact: bool = False) -> np.ndarray:
         """(n, 3) -> (n,): meters to the surface, negative inside, +inf beyond `within` and for points that are not
-        finite. `fast`: to first order, in half of the time. `exact`: the distance to the mesh itself at rest, which is
-        the reference; only of a body that was fitted here, and hundreds of times slower."""
+        finite. `fast`: to first order, in half of the time. `exact`: the distance to the mesh itself, which is the
+        reference; only of a body that was fitted here and not posed since, and hundreds of times slower."""
         if exact:
             return self._reference().signed_distance(points)
         points = _c.as_points(points)
@@ -152,6 +153,7 @@ class Body:
         pose.dt_s = dt
         move = _c.library.bodice_collider_pose if self.joints else _c.library.bodice_collider_move
         _c.check(move(self._collider, ctypes.byref(pose)))
+        self._posed = True
 
     def _mesh(self) -> Tuple[np.ndarray, np.ndarray]:
         raise Error("A proxy from a file has no mesh. Use bodice.Exact(vertices, faces), or a body of bodice.fit().")
@@ -160,7 +162,10 @@ class Body:
         with self._lock:
             if self._exact is None:
                 self._exact = Exact(*self._mesh())
-            return self._exact
+        if self._posed:
+            raise Error("The body was posed, and exact distances are those of its mesh at rest. Use "
+                        "bodice.Exact(vertices, faces) with the posed vertices.")
+        return self._exact
 
     def _query(self, points: np.ndarray, within: float, fast: bool, **arrays) -> None:
         particles, contacts = _c.particles(points), _c.defaults(_c.ContactArrays)

@@ -50,8 +50,8 @@ BODICE_INLINE bodice_fit_report bodice_default_fit_report(void) {
 
 /** Fits a proxy. `options` and `report` may be null. The same bits for any number of workers, unless
  * time_budget_s cuts it short. Fails with BODICE_INVALID_ARGUMENT, BODICE_UNUSABLE_GEOMETRY or
- * BODICE_CANCELED. Const use of context and skin. Cost for 8,500 vertices on two cores: 1.5 seconds, tier
- * solid 0.1. */
+ * BODICE_CANCELED. Const use of context and skin. Cost for 8,500 vertices on two idle cores: 1.5 seconds,
+ * tier solid 0.1; with more vertices in proportion. */
 BODICE_EXPERIMENTAL bodice_status bodice_fit(const bodice_context* context, const bodice_skin* skin,
                                              const bodice_fit_options* options, bodice_proxy** proxy,
                                              bodice_fit_report* report);

@@ -115,7 +115,8 @@ BODICE_INLINE bodice_query_options bodice_default_query_options(void) {
 BODICE_STABLE bodice_status bodice_query(const bodice_collider* collider, const bodice_particles* particles,
                                          const bodice_query_options* options, bodice_workspace* workspace,
                                          const bodice_contacts* contacts);
-/** The contact of one point in the world. Const use. Allocates nothing. Cost: some microseconds. */
+/** The contact of one point in the world; its part is that of its ellipsoid, bodice_proxy_get_ellipsoids().
+ * Const use. Allocates nothing. Cost: some microseconds. */
 BODICE_STABLE bodice_status bodice_query_point(const bodice_collider* collider, const double point[3],
                                                bodice_contact* contact);
 /** All ellipsoids within a distance of a point in the world, nearest first, each with its own surface. *found
