@@ -23,7 +23,7 @@ WHOLE = {"capi": r"/(base|arrays|frame)/(?!highway_runtime)", "collision": r"(?<
          "binding": r"/pose/", "proxy": r"/(?!base_pose|proxy_file|proxy_surface|crossed_cells)[a-z_0-9]+\.cpp$"}
 # Sources of headers that the frame side includes for their types, and functions that it does not call.
 NEVER = (r"/(kernels(_[a-z0-9]+)?|tbb_executor|log_sinks|highway_runtime|proxy_distance|add_things|write_file|"
-         r"proxy_file|base_pose_file|table_warp)\.cpp$")
+         r"proxy_file|base_pose_file|table_warp|dual_quaternion|skeleton|skinning)\.cpp$")
 # Eigen's own kinds of vectors, processors and back ends: not needed, since nothing here is vectorized by Eigen.
 FOREIGN = r"arch/(?!Default)|GPU|CUDA|HIP|SYCL|MKL|BLAS|LAPACK|misc/(blas|lapack)|Accelerate|openmp|omp\.h"
 
