@@ -1,8 +1,10 @@
 """Rigs of the program, tickets and sessions. Needs libbodice; skips aloud without numpy."""
 
 import sys
+import threading
 import time
 import unittest
+from unittest import mock
 
 try:
     import numpy as np
@@ -11,7 +13,7 @@ except ImportError:
     sys.exit(0)
 
 import bodice
-from bodice import _library
+from bodice import _library, _ticket
 
 
 def sheet(above: float, n: int = 30):
@@ -92,12 +94,36 @@ class Live(unittest.TestCase):
         ticket = bodice.begin_fit(self.vertices, self.faces, progress=refuse)
         with self.assertRaisesRegex(RuntimeError, "repair"):
             ticket.result()
+        ticket = self._begun_after_the_hook(refuse)
+        with self.assertRaisesRegex(RuntimeError, "repair"):
+            ticket.result()
         began = time.perf_counter()
         del ticket
         bodice.begin_fit(self.vertices, self.faces, progress=lambda stage: None)  # dropped at once
         self.assertLess(time.perf_counter() - began, 5.0)
         with self.assertRaisesRegex(bodice.Error, "shape"):
             bodice.begin_fit(self.vertices, self.faces.ravel())
+
+    def _begun_after_the_hook(self, refuse):
+        """A ticket whose hook has raised before the call that begins the work returns."""
+        refused = threading.Event()
+
+        def refuse_first(stage):
+            refused.set()
+            refuse(stage)
+
+        whole = _ticket._c.whole
+
+        def slow(name):
+            def begin(*arguments):
+                status = whole(name)(*arguments)
+                self.assertTrue(refused.wait(60.0))
+                time.sleep(0.05)
+                return status
+            return begin
+
+        with mock.patch.object(_ticket._c, "whole", slow):
+            return bodice.begin_fit(self.vertices, self.faces, progress=refuse_first)
 
     def test_a_session_dresses_plays_pauses_and_seeks(self):
         session = bodice.Session("solid", moves=True, workers=1)

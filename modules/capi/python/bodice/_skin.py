@@ -47,11 +47,21 @@ class Hook:
             self._raised = raised
             return 1
 
-    def check(self, status: int) -> None:
+    def begun(self, status: int) -> None:
+        """After a call that leaves work running. What the hook raises in that work is for check(), at its end."""
+        self._stop_listening()
+        _c.check(status)
+
+    def _stop_listening(self) -> None:
         if self._previous is not None:
             signal.signal(signal.SIGINT, self._previous)
+            self._previous = None
         if self._interrupted:
             raise KeyboardInterrupt
+
+    def check(self, status: int) -> None:
+        """After a call that is over, or at the end of work that has begun()."""
+        self._stop_listening()
         if self._raised is not None:
             raise self._raised
         _c.check(status)

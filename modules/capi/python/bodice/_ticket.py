@@ -60,5 +60,8 @@ def begin_fit(vertices: np.ndarray, faces: np.ndarray, tier: Optional[str] = Non
     options, _kept_rig = skin_options(rig, find_rig, shape)
     wanted = fit_options(tier, target_error, max_ellipsoids, budget_us)
     hook, handle = Hook(options, progress), ctypes.c_void_p()
-    hook.check(begin(context, ctypes.byref(mesh), ctypes.byref(options), ctypes.byref(wanted), ctypes.byref(handle)))
-    return Ticket(context, handle, hook)
+    status = begin(context, ctypes.byref(mesh), ctypes.byref(options), ctypes.byref(wanted), ctypes.byref(handle))
+    # The ticket comes before what may raise: it is what ends the thread that calls the hook.
+    ticket = Ticket(context, handle, hook) if handle else None
+    hook.begun(status)
+    return ticket
