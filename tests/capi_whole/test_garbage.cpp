@@ -95,6 +95,8 @@ TEST_CASE("capi: null handles are refused, and released without harm") {
   CHECK(bodice_skin_get_landmarks(nullptr, nullptr, 0) == BODICE_INVALID_ARGUMENT);
   CHECK(bodice_skin_get_measurements(nullptr, nullptr, 0) == BODICE_INVALID_ARGUMENT);
   CHECK(bodice_skin_warning(nullptr, 0) == nullptr);
+  CHECK(bodice_skin_joint_name(nullptr, 0) == nullptr);
+  CHECK(bodice_skin_joint_parent(nullptr, 0) == -1);
   CHECK(bodice_fit(nullptr, nullptr, nullptr, &proxy, nullptr) == BODICE_INVALID_ARGUMENT);
   CHECK(bodice_fit_begin(nullptr, nullptr, nullptr, nullptr, &ticket) == BODICE_INVALID_ARGUMENT);
   CHECK(bodice_ticket_poll(nullptr, &number) == BODICE_INVALID_ARGUMENT);

@@ -1,5 +1,7 @@
 // Skins: what C gets of a made body against the truth about it and against the C++ layers.
 #include <cmath>
+#include <map>
+#include <string>
 
 #include <bodice/anatomy/measure.hpp>
 #include <bodice/tryon/prepare.hpp>
@@ -63,6 +65,34 @@ TEST_CASE("capi: a mesh in memory becomes the skin that C++ makes of it") {
   CHECK(bodice_landmark_name(BODICE_LANDMARKS) == nullptr);
   CHECK(bodice_measurement_name(-1) == nullptr);
   CHECK(bodice_skin_warning(skin.get(), info->warnings) == nullptr);
+  CHECK(info->joints == 0);
+  CHECK(bodice_skin_joint_name(skin.get(), 0) == nullptr);
+  CHECK(bodice_skin_joint_parent(skin.get(), 0) == -1);
+}
+
+TEST_CASE("capi: the joints of a skin have names and parents") {
+  const synth::Body body = make_body();
+  MeshArrays arrays(body.mesh);
+  const Context context = make_context();
+  bodice_skin_options options = bodice_default_skin_options();
+  options.find_rig = 1;
+  const auto skin = Skin::from_mesh(context, arrays.mesh(), options);
+  REQUIRE_MESSAGE(skin, bodice_last_error());
+  const auto info = skin->info();
+  REQUIRE(info->joints > 15);
+  std::map<std::string, std::string> parent;
+  for (std::uint32_t joint = 0; joint < info->joints; ++joint) {
+    const std::int32_t above = bodice_skin_joint_parent(skin->get(), joint);
+    CHECK(above < static_cast<std::int32_t>(joint));
+    const char* name =
+        above < 0 ? "" : bodice_skin_joint_name(skin->get(), static_cast<std::uint32_t>(above));
+    parent[bodice_skin_joint_name(skin->get(), joint)] = name;
+  }
+  CHECK(parent.at("pelvis") == "");
+  CHECK(parent.at("calf_l") == "thigh_l");
+  CHECK(parent.at("hand_r") == "forearm_r");
+  CHECK(bodice_skin_joint_name(skin->get(), info->joints) == nullptr);
+  CHECK(bodice_skin_joint_parent(skin->get(), info->joints) == -1);
 }
 
 TEST_CASE("capi: what is no person is a skin with parts of its own, if it is wanted") {

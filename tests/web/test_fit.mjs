@@ -67,7 +67,9 @@ test('the same call gives the same bits, and another tier another proxy', () => 
 
 test('a found rig carries the proxy that is fitted with it', () => {
   const rigged = bodice.skin(positions, faces, {findRig: true});
-  assert.ok(rigged.joints > 15);
+  assert.ok(rigged.joints.length > 15);
+  const parentOf = name => rigged.joints[rigged.jointParents[rigged.joints.indexOf(name)]];
+  assert.deepEqual(['pelvis', 'calf_l', 'hand_r'].map(parentOf), [undefined, 'thigh_l', 'forearm_r']);
   const bound = rigged.fit({tier: 'solid'}), points = positions.slice(0, 1500);
   const rest = bound.signedDistance(points), matrices = new Float32Array(12 * bound.joints.length);
   bound.joints.forEach((_, j) => { matrices.set(bound.bindMatrix(j), 12 * j); matrices[12 * j + 3] += 1; });

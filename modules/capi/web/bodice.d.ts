@@ -45,7 +45,10 @@ export interface Landmark {
 export interface Skin extends Owned {
   readonly stature: number;
   readonly up: number[];
-  readonly joints: number;
+  /** Names of the joints of its rig, in the order of a fitted body's. */
+  readonly joints: string[];
+  /** The joint that each joint hangs on, which comes before it; -1 for a root. */
+  readonly jointParents: number[];
   readonly warnings: string[];
   readonly positions: Float64Array;
   readonly faces: Uint32Array;

@@ -32,7 +32,10 @@ export class Skin extends Owner {
       this._library.check(this._module._web_skin_info(this._handle, out));
       return call.get(Float64Array, out, 9);
     });
-    Object.assign(this, {stature, up: [x, y, z], joints, _vertices: vertices, _triangles: triangles, _input: input});
+    Object.assign(this, {stature, up: [x, y, z], _vertices: vertices, _triangles: triangles, _input: input});
+    const ofJoints = read => Array.from({length: joints}, (_, joint) => read(this._handle, joint));
+    this.joints = ofJoints((skin, joint) => this._library.text(this._module._web_skin_joint_name(skin, joint)));
+    this.jointParents = ofJoints(this._module._web_skin_joint_parent);
     this.warnings = Array.from({length: warnings},
                                (_, i) => this._library.text(this._module._web_skin_warning(this._handle, i)));
   }

@@ -108,6 +108,12 @@ BODICE_WEB bodice_status web_skin_info(const bodice_skin* skin, double* out) {
     *out++ = count;
   return status;
 }
+BODICE_WEB const char* web_skin_joint_name(const bodice_skin* skin, std::uint32_t joint) {
+  return bodice_skin_joint_name(skin, joint);
+}
+BODICE_WEB int web_skin_joint_parent(const bodice_skin* skin, std::uint32_t joint) {
+  return bodice_skin_joint_parent(skin, joint);
+}
 BODICE_WEB const char* web_skin_warning(const bodice_skin* skin, std::uint32_t warning) {
   return bodice_skin_warning(skin, warning);
 }

@@ -154,6 +154,9 @@ class Fits(unittest.TestCase):
     def test_a_found_skeleton_carries_the_proxy(self):
         body = bodice.fit(self.vertices, self.faces, "solid", find_rig=True)
         self.assertGreater(len(body.joints), 15)
+        self.assertEqual(body.skin.joints, body.joints)
+        parent = dict(zip(body.joints, (body.joints[p] if p >= 0 else None for p in body.skin.joint_parents)))
+        self.assertEqual([parent[name] for name in ("pelvis", "calf_l", "hand_r")], [None, "thigh_l", "forearm_r"])
         points = self.vertices[::50]
         rest = body.signed_distance(points)
         moved = body.bind_matrices()

@@ -75,6 +75,8 @@ class Skin:
     stature: float
     up: NDArray[np.float64]
     warnings: list[str]
+    joints: tuple[str, ...]
+    joint_parents: tuple[int, ...]
     def __init__(self, vertices: ArrayLike, faces: ArrayLike, *, rig: Rig | None = None, find_rig: bool = False,
                  shape: _Shape = "person", workers: int = 0, progress: Progress | None = None) -> None: ...
     @property

@@ -29,7 +29,10 @@ class Contacts:
 
 
 class Body:
-    """A body proxy, at rest or in a pose. Queries of one body may overlap on several threads; poses must not."""
+    """A body proxy, at rest or in a pose. Queries of one body may overlap on several threads; poses must not.
+
+    Attributes: `stature` (meters, as if the body stood upright), `hash` (of its geometry), `joints` (names of those that
+    it is bound to, in the order of pose()), `part_names`. len() is the number of ellipsoids."""
 
     part_names: Tuple[str, ...] = tuple(_c.library.bodice_part_name(i).decode() for i in range(_c.ALL_PARTS))
 
@@ -46,7 +49,6 @@ class Body:
         self._lock = threading.Lock()
         info = _c.defaults(_c.ProxyInfo)
         _c.check(_c.library.bodice_proxy_get_info(self._proxy, ctypes.byref(info)))
-        #: Height of the body as if it stood upright, meters; hash of its geometry; number of joints it is bound to.
         self.stature: float = info.stature_m
         self.hash: int = info.hash
         self.joints: Tuple[str, ...] = tuple(

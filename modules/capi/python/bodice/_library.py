@@ -103,6 +103,8 @@ def _declare() -> None:
         "bodice_skin_get_landmarks": [c_void_p, c_void_p, c_size_t],
         "bodice_skin_get_measurements": [c_void_p, c_void_p, c_size_t],
         "bodice_skin_warning": [c_void_p, c_uint32],
+        "bodice_skin_joint_name": [c_void_p, c_uint32],
+        "bodice_skin_joint_parent": [c_void_p, c_uint32],
         "bodice_landmark_name": [c_int32],
         "bodice_measurement_name": [c_int32],
         "bodice_fit": [c_void_p] * 5,
@@ -130,7 +132,7 @@ def _declare() -> None:
     if _is_whole:
         arguments.update(whole_arguments)
         handles += ["skin", "ticket", "session"]
-        for name in ("bodice_skin_warning", "bodice_landmark_name", "bodice_measurement_name"):
+        for name in ("bodice_skin_warning", "bodice_skin_joint_name", "bodice_landmark_name", "bodice_measurement_name"):
             getattr(library, name).restype = ctypes.c_char_p
     for name, types in arguments.items():
         getattr(library, name).argtypes = types

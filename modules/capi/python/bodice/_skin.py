@@ -97,7 +97,11 @@ class Skin:
     """The repaired mesh of a body with its landmarks and parts. Any pose and up axis; coordinates are meters.
 
     `vertices` (n, 3), `faces` (m, 3). `rig`: the bones of the program, which its proxies follow; `find_rig`: the body
-    gets a skeleton for that. `shape`: "person", or "any" for a thing such as a chair, with clusters as parts."""
+    gets a skeleton for that. `shape`: "person", or "any" for a thing such as a chair, with clusters as parts.
+
+    Attributes: `stature` (meters, as if the body stood upright), `up` (unit vector from feet to head), `warnings` (what
+    was repaired or is doubtful, a sentence each), `joints` (names of the joints of its rig, in the order of a fitted
+    proxy's) and `joint_parents` (the joint that each hangs on, which comes before it; -1 for a root)."""
 
     def __init__(self, vertices: np.ndarray, faces: np.ndarray, *, rig: Optional[Rig] = None, find_rig: bool = False,
                  shape: str = "person", workers: int = 0, progress: Optional[Progress] = None):
@@ -129,12 +133,14 @@ class Skin:
         self._context, self._skin = context, skin
         info = _c.defaults(_c.SkinInfo)
         _c.check(_c.library.bodice_skin_get_info(self._skin, ctypes.byref(info)))
-        #: Height of the body as if it stood upright, meters; unit vector from feet to head.
         self.stature: float = info.stature_m
         self.up: np.ndarray = np.array(info.up)
-        #: What was repaired or is doubtful, a sentence each.
         self.warnings: List[str] = [_c.library.bodice_skin_warning(self._skin, i).decode()
                                     for i in range(info.warnings)]
+        self.joints: Tuple[str, ...] = tuple(
+            _c.library.bodice_skin_joint_name(self._skin, j).decode() for j in range(info.joints))
+        self.joint_parents: Tuple[int, ...] = tuple(
+            _c.library.bodice_skin_joint_parent(self._skin, j) for j in range(info.joints))
         self._sizes = info.vertices, info.triangles, info.input_vertices
 
     @property
@@ -185,7 +191,8 @@ class Skin:
 
     @property
     def measurements(self) -> Dict[str, float]:
-        """Measurements for garments by name, meters and radians, NaN where one could not be taken."""
+        """Measurements for garments by name, meters and radians, NaN where one could not be taken.
+        modules/anatomy/MEASUREMENTS.md defines them."""
         out = np.empty(_c.MEASUREMENTS)
         _c.check(_c.library.bodice_skin_get_measurements(self._skin, out.ctypes.data, len(out)))
         return {_c.library.bodice_measurement_name(i).decode(): float(value) for i, value in enumerate(out)}
@@ -214,12 +221,13 @@ class Garment:
 
 
 class FittedBody(Body):
-    """A proxy together with the skin that it was fitted to."""
+    """A proxy together with the skin that it was fitted to.
+
+    Attributes: `skin`, and `report` (gaps between proxy and skin in meters, shares, seconds: see bodice_fit_report)."""
 
     def __init__(self, context, proxy, skin: Skin, report: Dict[str, float]):
         self._adopt(context, proxy)
         self.skin = skin
-        #: Gaps between proxy and skin (meters), shares, seconds: see bodice_fit_report.
         self.report = report
 
     landmarks = property(lambda self: self.skin.landmarks, doc="See Skin.landmarks.")

@@ -62,6 +62,6 @@ def begin_fit(vertices: np.ndarray, faces: np.ndarray, tier: Optional[str] = Non
     hook, handle = Hook(options, progress), ctypes.c_void_p()
     status = begin(context, ctypes.byref(mesh), ctypes.byref(options), ctypes.byref(wanted), ctypes.byref(handle))
     # The ticket comes before what may raise: it is what ends the thread that calls the hook.
-    ticket = Ticket(context, handle, hook) if handle else None
+    ticket = Ticket(context, handle, hook)
     hook.begun(status)
     return ticket

@@ -31,6 +31,12 @@ bodice_landmark landmark_as_c(const body::Landmark& landmark) {
           0};
 }
 
+/// Null if the skin has no such joint.
+const rig::Joint* joint_of(const bodice_skin* skin, uint32_t joint) {
+  if (!skin || !skin->skin.rig || joint >= skin->skin.rig->skeleton.joints.size()) return nullptr;
+  return &skin->skin.rig->skeleton.joints[joint];
+}
+
 }  // namespace
 
 bodice_status bodice_skin_get_info(const bodice_skin* skin, bodice_skin_info* info) {
@@ -51,6 +57,16 @@ bodice_status bodice_skin_get_info(const bodice_skin* skin, bodice_skin_info* in
 
 const char* bodice_skin_warning(const bodice_skin* skin, uint32_t warning) {
   return skin && warning < skin->warnings.size() ? skin->warnings[warning].c_str() : nullptr;
+}
+
+const char* bodice_skin_joint_name(const bodice_skin* skin, uint32_t joint) {
+  const rig::Joint* found = joint_of(skin, joint);
+  return found ? found->name.c_str() : nullptr;
+}
+
+int32_t bodice_skin_joint_parent(const bodice_skin* skin, uint32_t joint) {
+  const rig::Joint* found = joint_of(skin, joint);
+  return found ? found->parent : -1;
 }
 
 bodice_status bodice_skin_get_mesh(const bodice_skin* skin, double* positions, size_t vertices,

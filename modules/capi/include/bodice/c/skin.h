@@ -106,6 +106,12 @@ BODICE_EXPERIMENTAL bodice_status bodice_skin_get_info(const bodice_skin* skin, 
  * is no such warning. */
 BODICE_EXPERIMENTAL const char* bodice_skin_warning(const bodice_skin* skin, uint32_t warning);
 
+/** The name of a joint of the rig, as long as the skin lives; null if there is no such joint. A proxy that is
+ * fitted to the skin has the same joints in the same order. */
+BODICE_EXPERIMENTAL const char* bodice_skin_joint_name(const bodice_skin* skin, uint32_t joint);
+/** The joint that a joint of the rig hangs on, which comes before it; -1 if it is a root or no joint. */
+BODICE_EXPERIMENTAL int32_t bodice_skin_joint_parent(const bodice_skin* skin, uint32_t joint);
+
 /** Copies the repaired mesh: the first `vertices` positions, three doubles each, and the first `triangles`
  * triangles. Either array may be null. O(#copied). */
 BODICE_EXPERIMENTAL bodice_status bodice_skin_get_mesh(const bodice_skin* skin, double* positions,
@@ -134,7 +140,8 @@ BODICE_EXPERIMENTAL const char* bodice_landmark_name(int32_t landmark);
 BODICE_EXPERIMENTAL bodice_status bodice_skin_get_landmarks(const bodice_skin* skin,
                                                             bodice_landmark* landmarks, size_t capacity);
 
-/** Number of measurements for garments, and the name of one, such as "waist"; null if there is none. */
+/** Number of measurements for garments, and the name of one, such as "waist"; null if there is none. They are
+ * defined in modules/anatomy/MEASUREMENTS.md. */
 enum { BODICE_MEASUREMENTS = 26 };
 BODICE_EXPERIMENTAL const char* bodice_measurement_name(int32_t measurement);
 /** Takes the measurements and copies the first `capacity`: meters, angles in radians, NaN where one could not
