@@ -105,7 +105,7 @@ class Live(unittest.TestCase):
             bodice.begin_fit(self.vertices, self.faces.ravel())
 
     def _begun_after_the_hook(self, refuse):
-        """A ticket whose hook has raised before the call that begins the work returns."""
+        """A ticket with a hook that has raised before the call that begins the work returns."""
         refused = threading.Event()
 
         def refuse_first(stage):
