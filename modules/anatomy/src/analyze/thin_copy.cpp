@@ -182,7 +182,7 @@ std::optional<ThinCopy> SampledSkin::thin_copy(const engine::Context& context, d
 void SampledSkin::wall_limbs(const engine::Context& context, const MeshDistance& distance, double neck) {
   if (depth_.value.empty()) {
     depth_ = distances_.sample(context, [](double d, const Vec3&) { return d; });
-    const auto [nx, ny, nz] = depth_.nodes;
+    const std::size_t nx = depth_.nodes[0], ny = depth_.nodes[1], nz = depth_.nodes[2];
     engine::parallel_for(context, ny * nz, 1, [&](std::size_t row, std::size_t) {
       for (std::size_t x = 0; x < nx; ++x) {
         float& value = depth_.value[depth_.index(x, row % ny, row / ny)];
