@@ -9,9 +9,11 @@
 
 namespace bodice::inline v0_1::rigging {
 
-/// MotionOptions::arms_out_deg with which hanging arms pass trunk and thighs: 0 for slim bodies, 12 for heavy
-/// ones, never more than 30. `part` is #V; the rig is bound to the skin and has the common skeleton, else the
-/// result is 0. O(#V).
+/// MotionOptions::arms_out_deg with which hanging arms pass hips and thighs, and with which the skin of arm
+/// and trunk leaves room for two layers of cloth in the armpits: 5 for slim bodies, 16 for heavy ones, never
+/// more than 30. For armpits it is never more than 16, so that those of the heaviest still press. `part` is
+/// #V; the rig is bound to the skin and has the common skeleton, else the result is 0. O(#V log #V), a
+/// quarter of a second for 13,000 vertices.
 double clear_arms_deg(const geometry::TriMesh& skin, std::span<const body::Part> part, const rig::Rig& rig);
 
 }  // namespace bodice::rigging
