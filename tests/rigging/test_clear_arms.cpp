@@ -70,6 +70,24 @@ TEST_CASE("with the angle that is found, upper arms do not walk inside the trunk
   }
 }
 
+TEST_CASE("arms of a body that changes its shape come to the angle that it needs in small steps") {
+  const synth::Body body = posed::made_body({.mass_kg = 62.0, .vertices = 3000});
+  const rig::Rig rig{body.skeleton, body.weights, {}};
+  const double needed = rigging::clear_arms_deg(body.mesh, body.part, rig);
+  REQUIRE(needed > 6.0);
+  REQUIRE(needed < 14.0);
+  for (const double from : {needed - 3.0, needed + 3.0}) {
+    double now = from;
+    for (int shape = 0; shape < 12; ++shape) {
+      const double next = rigging::keep_arms_clear_deg(body.mesh, body.part, rig, now);
+      CHECK(std::abs(next - now) < 0.34);
+      now = next;
+    }
+    CHECK(std::abs(now - needed) < 2.0);  // the pressed area of a coarse skin changes by whole triangles
+    CHECK(rigging::keep_arms_clear_deg(body.mesh, body.part, rig, now) == doctest::Approx(now).epsilon(0.05));
+  }
+}
+
 TEST_CASE("with the angle that is found, the hands of slim and of heavy bodies clear trunk and thighs") {
   double heaviest = 0.0;
   for (const double mass_kg : {52.0, 62.0, 78.0, 95.0}) {

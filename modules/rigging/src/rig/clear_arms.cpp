@@ -31,7 +31,11 @@ constexpr double kArmpit = 0.36;
 /// The skin that may be without that room, in squares of the arm's length. The end of an armpit always is.
 constexpr double kCrease = 0.015;
 /// Arms that are held out farther for the sake of armpits look stiff, so that those of heavy bodies press.
-constexpr int kMostForArmpits_deg = 16;
+constexpr double kMostForArmpits_deg = 16.0;
+
+/// How far arms move when a body takes another shape, and the share of the pressed skin within which they do
+/// not.
+constexpr double kStep_deg = 1.0 / 3.0, kSlack = 0.1;
 
 /// A body that stands and faces +z.
 struct Standing {
@@ -101,35 +105,63 @@ double pressed_area(const geometry::TriMesh& skin, const geometry::MeshDistance&
   return area / (arm.length_m * arm.length_m);
 }
 
-/// Whether armpits have room for cloth with arms that are held out so far.
-bool armpits_are_clear(const geometry::TriMesh& skin, std::span<const body::Part> part, const rig::Rig& rig,
-                       int arms_out_deg) {
+/// The pressed area of both armpits with arms that are held out so far.
+double pressed_area(const geometry::TriMesh& skin, std::span<const body::Part> part, const rig::Rig& rig,
+                    double arms_out_deg) {
   const auto body = stand(skin, rig, arms_out_deg);
   const geometry::MeshDistance distance({}, body->skin);
   double area = 0.0;
   for (int side = 0; side < 2; ++side)
     area += pressed_area(body->skin, distance, part, arm_of(*body, rig.skeleton, side));
-  return area <= kCrease;
+  return area;
 }
 
-}  // namespace
+/// The least angle, from one on, with which armpits have room for cloth, or the most that they are given.
+double armpits_clear_deg(const geometry::TriMesh& skin, std::span<const body::Part> part, const rig::Rig& rig,
+                         double from_deg) {
+  if (from_deg >= kMostForArmpits_deg) return from_deg;
+  // The farther out, the less skin is pressed: bisection to half a degree, and a straight line between.
+  double low = from_deg, high = kMostForArmpits_deg;
+  double area_low = pressed_area(skin, part, rig, low), area_high = pressed_area(skin, part, rig, high);
+  if (area_low <= kCrease) return low;
+  if (area_high >= kCrease) return high;
+  while (high - low > 0.5) {
+    const double middle = 0.5 * (low + high), area = pressed_area(skin, part, rig, middle);
+    (area > kCrease ? low : high) = middle;
+    (area > kCrease ? area_low : area_high) = area;
+  }
+  return low + (high - low) * (area_low - kCrease) / (area_low - area_high);
+}
 
-double clear_arms_deg(const geometry::TriMesh& skin, std::span<const body::Part> part, const rig::Rig& rig) {
+/// The angle with which hands pass hips and thighs; nothing if the rig does not have the common skeleton.
+std::optional<double> hands_clear_deg(const geometry::TriMesh& skin, std::span<const body::Part> part,
+                                      const rig::Rig& rig) {
   const auto hanging = stand(skin, rig, 0.0);
-  if (!hanging) return 0.0;
+  if (!hanging) return std::nullopt;
   double raise = 0.0;
   for (int side = 0; side < 2; ++side)
     raise =
         std::max(raise, raise_beside_hips_deg(hanging->skin.positions, part,
                                               arm_of(*hanging, rig.skeleton, side), side == 0 ? 1.0 : -1.0));
-  const double for_hands_deg = std::clamp(raise - kHangingRaise_deg, 0.0, kMost_deg);
-  // The farther out, the less skin is pressed: bisection to a degree.
-  int pressed = static_cast<int>(for_hands_deg) - 1, clear = kMostForArmpits_deg;
-  while (clear - pressed > 1) {
-    const int middle = (pressed + clear) / 2;
-    (armpits_are_clear(skin, part, rig, middle) ? clear : pressed) = middle;
-  }
-  return std::max(for_hands_deg, static_cast<double>(clear));
+  return std::clamp(raise - kHangingRaise_deg, 0.0, kMost_deg);
+}
+
+}  // namespace
+
+double clear_arms_deg(const geometry::TriMesh& skin, std::span<const body::Part> part, const rig::Rig& rig) {
+  const auto hands = hands_clear_deg(skin, part, rig);
+  return hands ? armpits_clear_deg(skin, part, rig, *hands) : 0.0;
+}
+
+double keep_arms_clear_deg(const geometry::TriMesh& skin, std::span<const body::Part> part,
+                           const rig::Rig& rig, double before_deg) {
+  const auto hands = hands_clear_deg(skin, part, rig);
+  if (!hands) return 0.0;
+  const double area = pressed_area(skin, part, rig, before_deg);
+  double next = before_deg;
+  if (area > kCrease) next = std::min(before_deg + kStep_deg, std::max(before_deg, kMostForArmpits_deg));
+  if (area < kCrease * (1.0 - kSlack)) next = before_deg - kStep_deg;
+  return std::clamp(next, *hands, std::max(*hands, kMostForArmpits_deg));
 }
 
 }  // namespace bodice::rigging

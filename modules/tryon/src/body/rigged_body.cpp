@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -44,27 +45,37 @@ engine::Result<BodyMotion> carried_over(const rig::Skeleton& source, const rig::
                                         report.matched.size(), " joints follow it, ",
                                         report.unmatched_source.size(), " that it moves are not there."),
                         "Give a clip of this body's own skeleton for all of its motion."});
-  return BodyMotion{rig, std::move(carried->clip)};
+  return BodyMotion{rig, std::move(carried->clip), 0.0};
 }
 
 /// Scans may sit on the floor with heels or toes up, so that the floor is where the skin ends. Wide bodies
 /// hold their arms out, which would else swing through the hips and what these wear.
-rigging::MotionOptions motion_options(const SegmentedSkin& skin, const rig::Rig& rig) {
-  return {.arms_out_deg = rigging::clear_arms_deg(skin.input.skin, skin.anatomy.part, rig),
+rigging::MotionOptions motion_options(const SegmentedSkin& skin, const rig::Rig& rig,
+                                      std::optional<double> arms_out_before_deg) {
+  const geometry::TriMesh& mesh = skin.input.skin;
+  const std::vector<body::Part>& part = skin.anatomy.part;
+  return {.arms_out_deg = arms_out_before_deg
+                              ? rigging::keep_arms_clear_deg(mesh, part, rig, *arms_out_before_deg)
+                              : rigging::clear_arms_deg(mesh, part, rig),
           .floor_m = geometry::bounding_box(skin.input.skin.positions).low.y()};
 }
 
 /// Made motions are of the common skeleton. For a rig of another one, the common skeleton of the same body is
 /// found and its clip carried over.
 engine::Result<BodyMotion> made_motion(const engine::Context& context, const SegmentedSkin& skin,
-                                       rigging::Motion motion, std::vector<engine::Warning>& warnings) {
-  if (auto clip = rigging::make_clip(skin.rig->skeleton, motion, motion_options(skin, *skin.rig)))
-    return BodyMotion{*skin.rig, std::move(clip).value()};
+                                       rigging::Motion motion, std::optional<double> arms_out_before_deg,
+                                       std::vector<engine::Warning>& warnings) {
+  rigging::MotionOptions options = motion_options(skin, *skin.rig, arms_out_before_deg);
+  if (auto clip = rigging::make_clip(skin.rig->skeleton, motion, options))
+    return BodyMotion{*skin.rig, std::move(clip).value(), options.arms_out_deg};
   auto common = rigging::make_rig(context, skin.input.skin, skin.anatomy);
   if (!common) return of_body(std::move(common).error(), skin.input);
-  auto clip = rigging::make_clip(common->rig.skeleton, motion, motion_options(skin, common->rig));
+  options = motion_options(skin, common->rig, arms_out_before_deg);
+  auto clip = rigging::make_clip(common->rig.skeleton, motion, options);
   if (!clip) return std::move(clip).error();
-  return carried_over(common->rig.skeleton, *clip, *skin.rig, warnings);
+  auto carried = carried_over(common->rig.skeleton, *clip, *skin.rig, warnings);
+  if (carried) carried->arms_out_deg = options.arms_out_deg;
+  return carried;
 }
 
 }  // namespace
@@ -150,7 +161,7 @@ engine::Result<BodyMotion> find_motion(const engine::Context& context, const Seg
                                        const MotionChoice& choice, std::vector<engine::Warning>& warnings) {
   if (const auto motion = rigging::motion_from_name(choice.motion)) {
     if (choice.clip.empty() || choice.clip == choice.motion)
-      return made_motion(context, skin, *motion, warnings);
+      return made_motion(context, skin, *motion, {}, warnings);
     return engine::Error{
         engine::ErrorCode::kInvalidArgument,
         engine::message("The motion '", choice.motion, "' is made here and has no clip '", choice.clip, "'."),
@@ -162,8 +173,17 @@ engine::Result<BodyMotion> find_motion(const engine::Context& context, const Seg
   append(warnings, read->warnings);
   auto clip = choose_clip(choice, read->clips);
   if (!clip) return std::move(clip).error();
-  if (same_joints(read->skeleton, skin.rig->skeleton)) return BodyMotion{*skin.rig, std::move(clip).value()};
+  if (same_joints(read->skeleton, skin.rig->skeleton))
+    return BodyMotion{*skin.rig, std::move(clip).value(), 0.0};
   return carried_over(read->skeleton, *clip, *skin.rig, warnings);
+}
+
+engine::Result<BodyMotion> motion_of_shape(const engine::Context& context, const SegmentedSkin& skin,
+                                           const MotionChoice& choice, const BodyMotion& before) {
+  const auto motion = rigging::motion_from_name(choice.motion);
+  if (!motion) return BodyMotion{*skin.rig, before.clip, before.arms_out_deg};
+  std::vector<engine::Warning> warnings;  // those of the shape before
+  return made_motion(context, skin, *motion, before.arms_out_deg, warnings);
 }
 
 }  // namespace bodice::tryon

@@ -2,25 +2,18 @@
 
 #include <utility>
 
-#include <bodice/rigging/motion.hpp>
-
 namespace bodice::inline v0_1::tryon {
 namespace {
 
-/// The same clip on another shape of the body. A made one is made anew, as arms keep off wider hips.
-engine::Result<std::shared_ptr<const SessionMotion>> motion_of_shape(
+/// The same clip on another shape of the body.
+engine::Result<std::shared_ptr<const SessionMotion>> session_motion_of_shape(
     const engine::Context& context, const SessionMotion& before, std::shared_ptr<const SegmentedSkin> skin) {
-  BodyMotion motion{*skin->rig, before.playback->motion().clip};
-  if (rigging::motion_from_name(before.choice.motion)) {
-    std::vector<engine::Warning> warnings;
-    auto made = find_motion(context, *skin, before.choice, warnings);
-    if (!made) return std::move(made).error();
-    motion = std::move(made).value();
-  }
+  auto motion = motion_of_shape(context, *skin, before.choice, before.playback->motion());
+  if (!motion) return std::move(motion).error();
   auto same = std::make_shared<SessionMotion>(before);
   same->skin = std::move(skin);
-  same->playback =
-      std::make_shared<ClipPlayback>(std::make_shared<const BodyMotion>(std::move(motion)), before.mode);
+  same->playback = std::make_shared<ClipPlayback>(
+      std::make_shared<const BodyMotion>(std::move(motion).value()), before.mode);
   return std::shared_ptr<const SessionMotion>(std::move(same));
 }
 
@@ -74,7 +67,7 @@ engine::Result<std::shared_ptr<const SessionBody>> make_reshaped(const engine::C
   if (!shape) return std::move(shape).error();
   std::shared_ptr<const SessionMotion> same;
   if (motion) {
-    auto found = motion_of_shape(context, *motion, shape->skin);
+    auto found = session_motion_of_shape(context, *motion, shape->skin);
     if (!found) return std::move(found).error();
     same = std::move(found).value();
   }

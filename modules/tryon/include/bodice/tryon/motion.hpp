@@ -18,6 +18,7 @@ namespace bodice::inline v0_1::tryon {
 struct BodyMotion {
   rig::Rig rig;
   rig::Clip clip;
+  double arms_out_deg = 0.0;  ///< of a made motion, see rigging::MotionOptions
 };
 
 /// Checks that the rig and its clip are valid and fit a skin of so many vertices. Fails with

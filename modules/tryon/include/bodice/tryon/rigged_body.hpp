@@ -40,4 +40,9 @@ engine::Result<void> check_time(const rig::Clip& clip, double time_s);
 engine::Result<BodyMotion> find_motion(const engine::Context& context, const SegmentedSkin& skin,
                                        const MotionChoice& choice, std::vector<engine::Warning>& warnings);
 
+/// The same clip on another shape of the body. A made one is made anew, and its arms come as near to where
+/// the shape needs them as rigging::keep_arms_clear_deg() lets them.
+engine::Result<BodyMotion> motion_of_shape(const engine::Context& context, const SegmentedSkin& skin,
+                                           const MotionChoice& choice, const BodyMotion& before);
+
 }  // namespace bodice::tryon
