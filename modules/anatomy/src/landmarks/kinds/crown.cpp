@@ -8,6 +8,7 @@
 #include "landmarks/base/correction.hpp"
 #include "landmarks/base/far_end.hpp"
 #include "landmarks/base/landmark_kind.hpp"
+#include "landmarks/kinds/head_profile.hpp"
 #include "skin/soft_position.hpp"
 
 namespace bodice::inline v0_1::anatomy {
@@ -40,6 +41,9 @@ constexpr double kChin = 0.5;
 /// The farthest point of a head lies 1.3 to 1.7 times as far from its middle as its side does. Two bare heads
 /// in a hundred reach farther than the second, a fraction of the body size; all with a bun of hair did.
 constexpr double kLongHead = 1.6, kMaxOverhang = 0.016;
+/// Outlines of 150 made and 34 real heads have no hollow beyond .003 of the body size, those of noisy or
+/// closed scans .0036 at most, and those with a bun .0064 at least.
+constexpr double kMaxHollow = 0.005;
 
 /// How far a vertex lies from the feet, less what its share of the path over the head costs.
 class CrownScore {
@@ -126,12 +130,7 @@ double difference(const LandmarkInput& input, const Landmarks& marks, int) {
 }
 
 /// How far the head reaches beyond what its breadth lets expect: hair that stands off lies there.
-double overhang(const LandmarkInput& input, const Landmarks& marks, int) {
-  const Loop& neck = marks[LandmarkId::kNeck].loop;
-  const Midline& middle = input.coordinates.midline();
-  if (!neck.found() || !(input.head.radius > 0.0)) return -1.0;
-  const Vec3 up = (input.head.center - neck.center).normalized();
-  const Vec3 across = up.cross(middle.front.position - middle.back.position).normalized();
+double overhang(const LandmarkInput& input, const Vec3& up, const Vec3& across) {
   double farthest = 0.0, breadth = 0.0;
   const auto& positions = input.skin.mesh.positions;
   for (Index v = 0; v < positions.size(); ++v) {
@@ -142,6 +141,17 @@ double overhang(const LandmarkInput& input, const Landmarks& marks, int) {
     breadth = std::max(breadth, std::abs(offset.dot(across)));
   }
   return std::max(0.0, farthest - kLongHead * breadth) / input.size_m();
+}
+
+/// Hair that stands off, by the sign that shows it best; 1 is the most that a bare head has.
+double hair(const LandmarkInput& input, const Landmarks& marks, int) {
+  const Loop& neck = marks[LandmarkId::kNeck].loop;
+  const Midline& middle = input.coordinates.midline();
+  if (!neck.found() || !(input.head.radius > 0.0)) return -1.0;
+  const Vec3 up = (input.head.center - neck.center).normalized();
+  const Vec3 across = up.cross(middle.front.position - middle.back.position).normalized();
+  return std::max(overhang(input, up, across) / kMaxOverhang,
+                  hollow_of_head(input, up, across.cross(up)) / kMaxHollow);
 }
 
 }  // namespace
@@ -156,7 +166,7 @@ LandmarkKind crown() {
       .checks = {{{of_crown::difference, of_crown::kMaxDifference,
                    "The top of the head and the point of the head that is farthest from the perineum lie "
                    "apart."},
-                  {of_crown::overhang, of_crown::kMaxOverhang,
+                  {of_crown::hair, 1.0,
                    "Something stands off the head, such as hair: the crown and the stature may be wrong."}}},
       .recipe = Recipe::kCorrections};
 }
