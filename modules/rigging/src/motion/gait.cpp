@@ -1,6 +1,6 @@
 // Based on: Jacquelin Perry, Judith M. Burnfield. Gait analysis: normal and pathological function. 2010.
 // Phases and ranges of joints follow its normal gait; the curves are the author's. Knees of the run bend to
-// 107 degrees, as at its 2.7 m/s; those of a sprint bend to 130 (Tom F. Novacheck. The biomechanics of
+// 103 degrees, as at its 2.7 m/s; those of a sprint bend to 130 (Tom F. Novacheck. The biomechanics of
 // running. 1998).
 //
 // A cycle begins when the left heel strikes. The right side does the same half a cycle later.
@@ -87,7 +87,7 @@ void run_side(double phase, const Build& build, int side, Posture& p) {
                             {0.92, 6.0},
                             {1.0, 6.0}},
                            Ends::kPeriodic);
-  static const Curve lift({{0.0, 0.0}, {0.34, 0.0}, {0.40, 0.035}, {0.60, 0.18}, {0.82, 0.07}, {1.0, 0.0}},
+  static const Curve lift({{0.0, 0.0}, {0.34, 0.0}, {0.40, 0.035}, {0.60, 0.15}, {0.82, 0.06}, {1.0, 0.0}},
                           Ends::kPeriodic);
   FootPosture& foot = p.foot[side] = foot_of(kRun, build, phase, side);
   foot.pitch = pitch(phase);
