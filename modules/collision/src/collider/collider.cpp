@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <cstring>
 
 #include <bodice/engine/parallel.hpp>
 
@@ -192,15 +194,27 @@ ParticleSequence Collider::Impl::begin_call(const ParticleView& particles, Works
 
 namespace {
 
+/// Adds a vector to a contact's point. Four numbers at once become vector code: the fourth, which is the
+/// normal's first, keeps its bits, because nothing changes when minus zero is added.
+void shift_point(Contact& contact, const double (&by)[4]) {
+  static_assert(offsetof(Contact, normal) == offsetof(Contact, point) + sizeof(Contact::point));
+  auto* const at = reinterpret_cast<std::byte*>(&contact) + offsetof(Contact, point);
+  float number[4];
+  std::memcpy(number, at, sizeof number);
+  for (int i = 0; i < 4; ++i) number[i] = static_cast<float>(double{number[i]} + by[i]);
+  std::memcpy(at, number, sizeof number);
+}
+
 /// Takes the contacts of one batch, which are in the cache still, into the coordinates of the positions.
 void shift_contacts(const StridedParticles& particles, const ParticleSequence& sequence, std::size_t begin,
                     std::size_t end, std::span<Contact> contacts) {
+  const double by[4] = {particles.origin[0], particles.origin[1], particles.origin[2], -0.0};
   const std::uint32_t* const index = sequence.from(begin);
-  for (std::size_t i = begin; i < end; ++i) {
-    Contact& contact = contacts[index ? index[i - begin] : i];
-    for (int axis = 0; axis < 3; ++axis)
-      contact.point[axis] = static_cast<float>(double{contact.point[axis]} + particles.origin[axis]);
+  if (!index) {
+    for (Contact& contact : contacts.subspan(begin, end - begin)) shift_point(contact, by);
+    return;
   }
+  for (std::size_t i = begin; i < end; ++i) shift_point(contacts[index[i - begin]], by);
 }
 
 }  // namespace
