@@ -35,8 +35,8 @@ double deepest(const synth::Body& body, Motion motion, double arms_out_deg) {
   return depth;
 }
 
-/// Area of skin that lies inside other skin of the body where arms and trunk meet, the most of eight moments
-/// of a walk, square meters. By winding numbers, not by distances.
+/// Area of the upper arms' skin that lies inside other skin, the most of eight moments of a walk, square
+/// meters. It is decided by winding numbers, so that no distance of clear_arms_deg() is used.
 double skin_in_skin(const synth::Body& body, double arms_out_deg) {
   const rig::Clip clip = posed::made_clip(body.skeleton, Motion::kWalk, {.arms_out_deg = arms_out_deg});
   double most = 0.0;

@@ -8,7 +8,7 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// Warns of landmarks around which much of the skin closes holes of the file, and of limbs that are longer
+/// Warns of landmarks around which much of the skin closes holes of the file, and of limbs that are shorter
 /// than those of the other side, and names them. Nothing if the skin was not closed. O(#V) a landmark.
 void warn_of_closed_skin(const io::ImportedMesh& mesh, const anatomy::Anatomy& anatomy,
                          std::vector<engine::Warning>& warnings);

@@ -7,8 +7,8 @@
 #include "coordinates/body_lengths.hpp"
 #include "landmarks/base/correction.hpp"
 #include "landmarks/base/far_end.hpp"
+#include "landmarks/base/head_profile.hpp"
 #include "landmarks/base/landmark_kind.hpp"
-#include "landmarks/kinds/head_profile.hpp"
 #include "skin/soft_position.hpp"
 
 namespace bodice::inline v0_1::anatomy {

@@ -13,7 +13,7 @@ struct RebuiltSurface {
   TriMesh mesh;                 ///< closed, wound outward; parts smaller than a hundredth of it are left out
   std::vector<bool> measured;   ///< #V; others close holes and gaps
   double measured_share = 0.0;  ///< of the area
-  double lost_share = 0.0;  ///< of the given area: parts of it, such as tips of fingers, that are not there
+  double lost_share = 0.0;      ///< share of the given area that the surface lacks, such as tips of fingers
 };
 
 /// The boundary of the region where the winding number of `surface` is above one half, with cells of

@@ -18,7 +18,7 @@ namespace bodice::inline v0_1::tryon {
 struct BodyMotion {
   rig::Rig rig;
   rig::Clip clip;
-  double arms_out_deg = 0.0;  ///< of a made motion, see rigging::MotionOptions
+  double arms_out_deg = 0.0;  ///< that of MotionOptions for a made motion, else 0
 };
 
 /// Checks that the rig and its clip are valid and fit a skin of so many vertices. Fails with

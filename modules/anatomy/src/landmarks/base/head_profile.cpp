@@ -1,4 +1,4 @@
-#include "landmarks/kinds/head_profile.hpp"
+#include "landmarks/base/head_profile.hpp"
 
 #include <algorithm>
 #include <array>
