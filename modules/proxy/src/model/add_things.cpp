@@ -1,10 +1,15 @@
 #include <bodice/proxy/add_things.hpp>
 
+#include <cmath>
 #include <memory>
 #include <string>
 
 namespace bodice::inline v0_1::proxy {
 namespace {
+
+/// The stature of a proxy is rounded, so that a margin which goes with it may differ in its last bits where a
+/// thing was fitted with that stature; a share of it.
+constexpr double kSameMargin = 1e-9;
 
 engine::Error unlike(const char* what, std::size_t thing) {
   return {engine::ErrorCode::kInvalidArgument,
@@ -18,7 +23,8 @@ engine::Result<void> check_alike(const BodyProxy& body, const BodyProxy& thing, 
                          "Of the body and thing " + std::to_string(index + 1) + " only one has relief.",
                          "Fit both with tier relief, or neither."};
   if (thing.stature_m() != body.stature_m()) return unlike("stature", index);
-  if (thing.margin_m() != body.margin_m()) return unlike("margin", index);
+  if (std::abs(thing.margin_m() - body.margin_m()) > kSameMargin * body.stature_m())
+    return unlike("margin", index);
   return {};
 }
 
