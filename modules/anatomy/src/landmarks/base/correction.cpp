@@ -14,6 +14,13 @@ double weighted_sum(std::span<const double> weights, std::span<const double> mea
 
 }  // namespace
 
+std::span<const double> values_of(const LandmarkInput& input, LandmarkId of,
+                                  const Coefficients& coefficients) {
+  if (!input.records || !input.records->trial) return coefficients.values;
+  const auto found = input.records->trial->find({of, coefficients.member});
+  return found == input.records->trial->end() ? coefficients.values : std::span<const double>(found->second);
+}
+
 void record(const LandmarkInput& input, const Correction& correction) {
   if (input.records) input.records->corrections.push_back(correction);
 }
@@ -24,7 +31,7 @@ Corrected corrected(const LandmarkInput& input, const Correction& correction) {
   geometry::Vec3 shift = geometry::Vec3::Zero();
   double square = 0.0;
   for (const CorrectionAxis& axis : correction.axes) {
-    const double far = weighted_sum(axis.weights.values, axis.measures);
+    const double far = weighted_sum(values_of(input, correction.of, axis.weights), axis.measures);
     if (!std::isfinite(far)) return result;
     shift += std::clamp(far, -correction.most, correction.most) * axis.direction;
     square += far * far;

@@ -1,7 +1,10 @@
 // Corrections: how far a landmark lies from a first estimate, by what was measured on the body.
 #pragma once
 
+#include <map>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "landmarks/base/landmarks.hpp"
@@ -45,6 +48,9 @@ struct MeasureLimits {
   Coefficients least, most;
 };
 
+/// Coefficients by landmark and member, in place of those of the files.
+using TrialCoefficients = std::map<std::pair<LandmarkId, std::string>, std::vector<double>>;
+
 /// What the corrections of one body were computed from: bench/calibrate fits their coefficients to it.
 struct CorrectionRecords {
   struct Measured {
@@ -54,7 +60,13 @@ struct CorrectionRecords {
   };
   std::vector<Correction> corrections;
   std::vector<Measured> measured;
+  /// What has been made again so far, so that later corrections start from it; null: nothing.
+  const TrialCoefficients* trial = nullptr;
 };
+
+/// The coefficients of a landmark that count: those on trial where there are any.
+std::span<const double> values_of(const LandmarkInput& input, LandmarkId of,
+                                  const Coefficients& coefficients);
 
 /// Records the correction where corrections are recorded.
 void record(const LandmarkInput& input, const Correction& correction);

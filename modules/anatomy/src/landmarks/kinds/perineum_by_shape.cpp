@@ -27,7 +27,7 @@ constexpr double kMost = 0.04;
 /// How far behind the first estimate the perineum lies, as a fraction of the body size: a constant, then what
 /// each point's depth below the first estimate counts, then its distance before it. One form for bent legs,
 /// and one that is added on straight legs.
-double shift_on(const Shape& shape, const double (&weights)[std::tuple_size_v<Shape> + 1]) {
+double shift_on(const Shape& shape, std::span<const double> weights) {
   double sum = weights[0];
   for (std::size_t i = 0; i < shape.size(); ++i) sum += weights[i + 1] * shape[i];
   return sum;
@@ -86,7 +86,11 @@ Vec3 perineum_by_shape(const LandmarkInput& input, const Landmarks& marks) {
   if (!line) return first;
   const Shape shape = shape_of(*line, input.size_m());
   const double straight = straightness(marks);
-  const double shift = shift_on(shape, data::kBent) + straight * shift_on(shape, data::kStraighter);
+  const auto shift_by = [&](const Coefficients& weights) {
+    return shift_on(shape, values_of(input, LandmarkId::kPerineum, weights));
+  };
+  const double shift =
+      shift_by({"bent", data::kBent}) + straight * shift_by({"straighter", data::kStraighter});
   record(input, along_line(*line, first, shape, straight));
   if (!std::isfinite(shift)) return first;
   return first + point_behind(*line, std::clamp(shift, -kMost, kMost)) - line->at(0);
