@@ -50,6 +50,7 @@ BodyOptions options_of(std::uint64_t seed, bool standing) {
 Sample::Sample(std::uint64_t seed, bool standing) : person_(seed) {
   const BodyOptions options = options_of(seed, standing);
   adult_ = options.childhood == 0.0;
+  if (options.pose == Pose::kA || options.pose == Pose::kT) group_ = Group::kMadeAtRest;
   auto made = bodice::synth::make_body({}, options);
   if (!made) throw std::runtime_error(made.error().sentence());
   truth_ = std::move(*made);
@@ -62,8 +63,8 @@ Sample::Sample(std::uint64_t seed, bool standing) : person_(seed) {
   analyze();
 }
 
-Sample::Sample(const bench::Case& body, std::size_t person, int weight)
-    : classes_(body.truth), stature_m_(body.stature), person_(person), weight_(weight) {
+Sample::Sample(const bench::Case& body, std::size_t person, Group group, int weight)
+    : classes_(body.truth), stature_m_(body.stature), person_(person), weight_(weight), group_(group) {
   for (std::size_t id = 0; id < landmarks_.size(); ++id) {
     const auto found = body.landmarks.find(std::string(name(static_cast<bodice::body::LandmarkId>(id))));
     if (found != body.landmarks.end()) landmarks_[id] = found->second;
@@ -85,7 +86,14 @@ void Sample::analyze() {
   coordinates_ = std::make_unique<bodice::anatomy::BodyCoordinates>(bodice::engine::Context{}, *skin_, tips_);
   const Vec3& hand = mesh.positions[tips_.hand[0]];
   usable_ = (hand - landmark(kLeftFingertip)).norm() < kNearFingertip * stature_m_;
-  if (usable_) (void)bodice::anatomy::find_landmarks({}, *skin_, *coordinates_, &records_);
+}
+
+bodice::anatomy::CorrectionRecords Sample::records(const bodice::anatomy::TrialCoefficients& trial) const {
+  bodice::anatomy::CorrectionRecords records;
+  records.trial = &trial;
+  (void)bodice::anatomy::find_landmarks({}, *skin_, *coordinates_, &records);
+  records.trial = nullptr;
+  return records;
 }
 
 Vec3 Sample::joint(const std::string& name) const {
@@ -132,7 +140,10 @@ OwnedSamples read_samples(const std::filesystem::path& data, std::size_t count) 
         people.begin());
   };
   return side_by_side(bodies.size(), [&](std::size_t i) {
-    return std::make_unique<Sample>(bodies[i], person_of(bodies[i]), i < posed ? 1 : kWeightOfFile);
+    const bench::Case& body = bodies[i];
+    const Group of_file = body.rest ? Group::kFileAtRest : Group::kFilePosed;
+    return i < posed ? std::make_unique<Sample>(body, person_of(body), Group::kRig, 1)
+                     : std::make_unique<Sample>(body, person_of(body), of_file, kWeightOfFile);
   });
 }
 

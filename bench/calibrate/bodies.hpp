@@ -25,13 +25,17 @@ struct Draw {
   bool standing = false;  ///< with an upright trunk, arms raised or not; else in all poses
 };
 
+/// Where a body comes from and how it stands: each group counts alike in a fit of corrections.
+enum class Group { kFileAtRest, kFilePosed, kRig, kMadeAtRest, kMadePosed };
+inline constexpr std::size_t kGroupCount = 5;
+
 /// A body of known truth with everything that its landmarks are found from.
 class Sample {
  public:
   /// A made body: random sex, build (thin to obese; children and pregnant women too), pose and resolution.
   explicit Sample(std::uint64_t seed, bool standing);
-  /// A body of a file, one person's in whatever pose; it counts `weight` times.
-  Sample(const bench::Case& body, std::size_t person, int weight);
+  /// A body of a file, or of a rig in a random pose; it counts `weight` times where groups do not count.
+  Sample(const bench::Case& body, std::size_t person, Group group, int weight);
   Sample(const Sample&) = delete;
   Sample& operator=(const Sample&) = delete;
 
@@ -43,6 +47,7 @@ class Sample {
   /// Bodies of one person are left out of a fit together.
   std::size_t person() const { return person_; }
   int weight() const { return weight_; }
+  Group group() const { return group_; }
   const bodice::anatomy::Skin& skin() const { return *skin_; }
   const bodice::anatomy::BodyCoordinates& coordinates() const { return *coordinates_; }
   /// Returns false where the five extremities were not found, or left and right were mistaken.
@@ -57,8 +62,8 @@ class Sample {
   Vec3 joint(const std::string& name) const;
   /// The true position of a joint of the common skeleton, where it is known.
   std::optional<Vec3> skeleton_joint(bodice::body::JointId id) const;
-  /// What the corrections of its landmarks are computed from.
-  const bodice::anatomy::CorrectionRecords& records() const { return records_; }
+  /// What the corrections of its landmarks are computed from, with those on trial in place of the files'.
+  bodice::anatomy::CorrectionRecords records(const bodice::anatomy::TrialCoefficients& trial) const;
 
  private:
   void analyze();
@@ -70,11 +75,11 @@ class Sample {
   double stature_m_ = 0.0;
   std::size_t person_ = 0;
   int weight_ = 1;
+  Group group_ = Group::kMadePosed;
   std::unique_ptr<bodice::anatomy::Skin> skin_;
   std::optional<bodice::anatomy::Extremities> extremities_;
   bodice::anatomy::BodyExtremities tips_;
   std::unique_ptr<bodice::anatomy::BodyCoordinates> coordinates_;
-  bodice::anatomy::CorrectionRecords records_;
   bool adult_ = true, usable_ = false;
 };
 

@@ -1,13 +1,16 @@
-// The fit of corrections: how far landmarks lie from their first estimates.
+// The fit of corrections.
 #pragma once
+
+#include <map>
 
 #include "fit.hpp"
 
 namespace calibrate {
 
-/// Least squares of the vector from the first estimate to the true landmark, all axes of a correction
-/// together. Members of the landmark's file that no correction names are absent. Prints the error before and
-/// after, of bodies that were left out of the fit.
-ordered_json fit_corrections(const bodice::anatomy::LandmarkKind& kind, const Samples& samples);
+/// The coefficients of each landmark's corrections, and the limits of its measures. One correction is fitted
+/// after the other, and all bodies are measured again before each, because it starts where those before it
+/// end. Errors count by their length, not by its square, and each group of bodies alike.
+std::map<const bodice::anatomy::LandmarkKind*, ordered_json> fit_corrections(
+    const std::vector<const bodice::anatomy::LandmarkKind*>& kinds, const Samples& samples);
 
 }  // namespace calibrate

@@ -24,9 +24,16 @@ class LeastSquares {
     square_.noalias() += x * x.transpose();
     right_.noalias() += x * y.transpose();
     squares_ += y.squaredNorm();
-    ++rows_;
+    rows_ += 1.0;
   }
   void add(const Eigen::VectorXd& x, double y) { add(x, Eigen::VectorXd::Constant(1, y)); }
+  /// The same as so many rows.
+  void add(const Eigen::VectorXd& x, double y, double weight) {
+    square_.noalias() += weight * x * x.transpose();
+    right_.noalias() += weight * y * x;
+    squares_ += weight * y * y;
+    rows_ += weight;
+  }
 
   LeastSquares& operator+=(const LeastSquares& other) {
     square_ += other.square_;
@@ -36,7 +43,7 @@ class LeastSquares {
     return *this;
   }
   int unknowns() const { return static_cast<int>(square_.rows()); }
-  std::size_t rows() const { return rows_; }
+  double rows() const { return rows_; }
   /// The sum over the rows of (x . weights - y)^2.
   double squared_error(const Eigen::MatrixXd& weights) const {
     return squares_ - 2.0 * weights.cwiseProduct(right_).sum() +
@@ -50,14 +57,14 @@ class LeastSquares {
   /// The same with a ridge for each unknown.
   Eigen::MatrixXd solve(const Eigen::VectorXd& ridge) const {
     Eigen::MatrixXd square = square_;
-    square.diagonal() += static_cast<double>(rows_) * ridge;
+    square.diagonal() += rows_ * ridge;
     return square.ldlt().solve(right_);
   }
 
  private:
   Eigen::MatrixXd square_, right_;
   double squares_ = 0.0;  ///< the sum of all |y|^2
-  std::size_t rows_ = 0;
+  double rows_ = 0.0;
 };
 
 /// A system for each part of the people, so that each part can be left out.
@@ -80,9 +87,9 @@ class FoldedLeastSquares {
   double left_out_error(double ridge) const {
     double squares = 0.0, rows = 0.0;
     for (std::size_t fold = 0; fold < kFolds; ++fold) {
-      if (folds_[fold].rows() == 0) continue;
+      if (folds_[fold].rows() == 0.0) continue;
       squares += folds_[fold].squared_error(solve(ridge, fold));
-      rows += static_cast<double>(folds_[fold].rows());
+      rows += folds_[fold].rows();
     }
     return std::sqrt(squares / rows);
   }

@@ -73,16 +73,26 @@ class Bodies {
     if (standing_.empty()) standing_ = calibrate::make_samples({kFirstStandingSeed, arguments_.bodies, true});
     return seen(standing_);
   }
+  /// Returns the same with the upright ones, and each body once.
+  Samples each_once() {
+    read();
+    Samples each = posed();
+    for (const Samples& more : {standing(), seen(read_)}) each.insert(each.end(), more.begin(), more.end());
+    return each;
+  }
   /// Returns the made bodies in all poses and, if a data folder is given, as many bodies of its people.
   Samples all() {
-    if (!arguments_.data.empty() && read_.empty())
-      read_ = calibrate::read_samples(arguments_.data, arguments_.bodies);
+    read();
     Samples both = posed();
     for (const calibrate::Sample* sample : seen(read_)) both.insert(both.end(), sample->weight(), sample);
     return both;
   }
 
  private:
+  void read() {
+    if (!arguments_.data.empty() && read_.empty())
+      read_ = calibrate::read_samples(arguments_.data, arguments_.bodies);
+  }
   static Samples seen(const calibrate::OwnedSamples& owned) {
     Samples samples;
     for (const auto& sample : owned) samples.push_back(sample.get());
@@ -102,7 +112,6 @@ ordered_json fit(const LandmarkKind& kind, Bodies& bodies) {
     case Recipe::kLimbLevel:
       return fit_limb_level(kind, bodies.posed());
     case Recipe::kCorrections:
-      return fit_corrections(kind, bodies.all());
     case Recipe::kNone:
       break;
   }
@@ -144,24 +153,27 @@ bool make_again(const std::filesystem::path& folder, const std::string& name, co
   return true;
 }
 
-/// Fits that no recipe of a landmark names. As those of corrections, what they make is not in use, and is
-/// made only if it is named.
+/// Fits that no recipe of a landmark names. They are made only if they are named, since what is fitted after
+/// them reads what they make: the library has to be built in between.
 struct OwnFit {
   const char* name;
+  const char* file;
   ordered_json (*fit)(const calibrate::Samples& samples);
 };
-constexpr OwnFit kOwnFits[] = {{"stature", calibrate::fit_stature},
-                               {"extremities", calibrate::fit_extremities},
-                               {"part_borders", calibrate::fit_part_borders},
-                               {"joint_borders", calibrate::fit_joint_borders},
-                               {"joint_offsets", calibrate::fit_joint_offsets},
-                               {"perineum", calibrate::fit_perineum_signature},
-                               {"armpit", calibrate::fit_armpit_signature}};
+constexpr OwnFit kOwnFits[] = {{"stature", "stature", calibrate::fit_stature},
+                               {"extremities", "extremities", calibrate::fit_extremities},
+                               {"part_borders", "part_borders", calibrate::fit_part_borders},
+                               {"joint_borders", "joint_borders", calibrate::fit_joint_borders},
+                               {"joint_offsets", "joint_offsets", calibrate::fit_joint_offsets},
+                               {"perineum_signature", "perineum", calibrate::fit_perineum_signature},
+                               {"armpit_signature", "armpit", calibrate::fit_armpit_signature}};
 
 constexpr const char* kUsage =
     "calibrate DIR [--bodies N] [--only NAME,NAME] [--data BODIES]\n"
-    "Makes the coefficients of anatomy again, and writes each to DIR/NAME.json: those in use, or those that "
-    "are named.\n";
+    "Makes coefficients of anatomy again, and writes each to DIR/NAME.json: those that made bodies alone "
+    "give, "
+    "or those that are named. perineum_signature and armpit_signature are written to perineum and armpit. "
+    "Borders come first, then signatures, then corrections, with a build of the library in between.\n";
 
 }  // namespace
 
@@ -176,14 +188,18 @@ int main(int argc, char** argv) {
     return 2;
   }
   Bodies bodies(a);
-  for (const auto& [name, fit] : kOwnFits)
-    if (a.names(name))
-      if (!make_again(a.folder, name, fit(bodies.all()))) return 1;
+  for (const auto& [name, file, fit] : kOwnFits)
+    if (a.names(name) && !make_again(a.folder, file, fit(bodies.all()))) return 1;
+  std::vector<const LandmarkKind*> corrected;
   for (const LandmarkKind& kind : bodice::anatomy::landmark_kinds()) {
     const std::string name = file_of(kind);
     const bool taken = kind.recipe != Recipe::kNone && kind.recipe != Recipe::kCorrections;
-    if (kind.recipe == Recipe::kNone || !(a.names(name) || (a.only.empty() && taken))) continue;
+    if (kind.recipe == Recipe::kCorrections && a.names(name)) corrected.push_back(&kind);
+    if (!taken || !(a.names(name) || a.only.empty())) continue;
     if (!make_again(a.folder, name, fit(kind, bodies))) return 1;
   }
+  if (corrected.empty()) return 0;
+  for (const auto& [kind, made] : calibrate::fit_corrections(corrected, bodies.each_once()))
+    if (!make_again(a.folder, file_of(*kind), made)) return 1;
   return 0;
 }
