@@ -34,8 +34,8 @@ constexpr int kTooManyDoubts = 6;
 constexpr double kTypicalArea = 0.63;
 // Shares of the skin's area: head .08 to .2, trunk .3 to .5, an arm .07 to .12, a leg .13 to .22.
 constexpr Range kHeadShare{0.03, 0.42}, kTrunkShare{0.14, 0.65}, kArmShare{0.025, 0.2}, kLegShare{0.06, 0.3};
-/// A body sits where the cosines of both thighs are below this.
-constexpr double kSitting = 0.6;
+/// A body sits where the cosines of both thighs are below this; one in one skin with its chair has up to .62.
+constexpr double kSitting = 0.65;
 /// A limb to its counterpart.
 constexpr double kLimbRatio = 2.2;
 // Straight lengths over the stature, joint to joint: upper arm .15 to .2, forearm .2 to .27, thigh and calf
