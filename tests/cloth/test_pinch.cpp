@@ -45,8 +45,12 @@ LayerScene arm_against_trunk(double in_m, double top_m, double length_m) {
 }
 
 // What lies between two bodies that overlap by in_mm is half of that deep in one of them, unless it slips
-// aside. Pinned rims go in with the arm. They cross while it is in, whatever the solver does; so the
-// crossings of these frames are not judged, only those half a second after the arm has gone.
+// aside. Pinned rims go in with the arm, and cross while it is in, whatever the solver does. With rims that
+// are clear, few triangles cross where cloth that comes nearer to the body has room: at most kFew, where 57
+// or more cross if it keeps its full thickness. Half a second after the arm has gone nothing crosses.
+constexpr std::size_t kFew = 25;
+constexpr double kHasRoom_mm = 1.0;
+
 void check_body_priority(double top_m, double length_m, bool rims_are_clear) {
   for (const double in_mm : {-4.0, -1.0, 1.0, 4.0}) {
     CAPTURE(in_mm);
@@ -54,7 +58,8 @@ void check_body_priority(double top_m, double length_m, bool rims_are_clear) {
     const LayerOutcome with = play(scene, layered(true)), without = play(scene, layered(false));
     CHECK(1e3 * with.deepest_m < std::max(1e3 * without.deepest_m, 0.5 * in_mm) + 0.5);
     if (rims_are_clear) CHECK(1e3 * with.deepest_m < 0.5 * std::max(0.0, in_mm) + 0.5);
-    CHECK(without.worst > 0);
+    if (rims_are_clear && in_mm <= kHasRoom_mm) CHECK(with.worst <= kFew);
+    CHECK(without.worst > 2 * kFew);
     CHECK(with.start == 0);
     CHECK(with.end == 0);
     CHECK(with.report.layers.crossing == 0);

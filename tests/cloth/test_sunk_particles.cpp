@@ -23,21 +23,56 @@ Vec3 to_vec(const Point& p) {
   return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
 }
 
-/// Two particles' positions, at heights over the top of a ball: where the body left one, and where layers
-/// moved it.
+/// Two positions of a particle, at heights over the top of a ball: where the body left it, and where layers
+/// moved it. Then the height at which its guard keeps it.
 struct Moved {
-  double from_m, to_m;
-  bool sinks;
+  double from_m, to_m, kept_m;
+
+  bool sinks() const { return kept_m > to_m; }
 };
 
 constexpr Moved kMoved[] = {
-    {kThickness_m, kThickness_m - 0.02e-3, true},   // by 20 micrometers
-    {kThickness_m, kThickness_m + 0.02e-3, false},  // outward
-    {-3e-3, -3.1e-3, true},                         // deeper where it was inside before
-    {-3e-3, -2.9e-3, false},
-    {8e-3, kThickness_m + 0.1e-3, false},  // toward the body, but not to it
-    {8e-3, kThickness_m - 0.1e-3, true},
+    {kThickness_m, kThickness_m - 0.02e-3, kThickness_m},            // by 20 micrometers
+    {kThickness_m, kThickness_m + 0.02e-3, kThickness_m + 0.02e-3},  // outward
+    {-3e-3, -3.1e-3, -3e-3},                                         // deeper where it was inside before
+    {-3e-3, -2.9e-3, -2.9e-3},
+    {8e-3, kThickness_m + 0.1e-3, kThickness_m + 0.1e-3},  // toward the body, but not to it
+    {8e-3, kThickness_m - 0.1e-3, kThickness_m},
 };
+
+/// The same where the body yields to half a millimeter inside.
+constexpr double kYielded_m = -0.5e-3;
+constexpr Moved kYielding[] = {
+    {kThickness_m, -0.4e-3, -0.4e-3},
+    {kThickness_m, -0.6e-3, kYielded_m},
+    {-3e-3, -2.9e-3, -2.9e-3},
+    {-3e-3, -3.1e-3, -3e-3},
+};
+
+void check_guards(std::span<const Moved> list, double least_m) {
+  const collision::Collider ball = ellipsoid_body(Vec3(0, -kRadius_m, 0), Vec3::Constant(kRadius_m));
+  const Vec3 top = -ball.origin();  // in the particles' frame
+  const cloth::BodyMotion still = cloth::make_motion(list.size(), 0.0);
+  std::vector<Point> resolved, now;
+  std::vector<Index> moved;
+  for (const Moved& m : list) {
+    moved.push_back(static_cast<Index>(moved.size()));
+    resolved.push_back(to_point(top + Vec3(0, m.from_m, 0)));
+    now.push_back(to_point(top + Vec3(0, m.to_m, 0)));
+  }
+  std::vector<cloth::Guard> guard(moved.size());
+  const cloth::ResolvedBody body{&ball, &still, static_cast<float>(kThickness_m),
+                                 static_cast<float>(least_m)};
+  CHECK(cloth::guard_sunk({}, body, moved, resolved, now, guard));
+  for (const Index i : moved) {
+    CAPTURE(i);
+    CHECK(cloth::is_guarded(guard[i]) == list[i].sinks());
+    Point kept;
+    cloth::store(kept, cloth::guarded(cloth::load(now[i]), resolved[i], guard[i]));
+    CHECK(std::abs((to_vec(kept) - top).y() - list[i].kept_m) < 1e-6);
+  }
+  CHECK(!cloth::guard_sunk({}, {}, moved, resolved, now, guard));
+}
 
 /// A sheet across another one: it rises along x, through the other's plane at `crossing_m`.
 struct Crossed {
@@ -78,28 +113,35 @@ struct Crossed {
 }  // namespace
 
 TEST_CASE("sunk particles: what layers move into the body is guarded, by however little, and nothing else") {
-  const collision::Collider ball = ellipsoid_body(Vec3(0, -kRadius_m, 0), Vec3::Constant(kRadius_m));
-  const Vec3 top = -ball.origin();  // in the particles' frame
-  const cloth::BodyMotion still = cloth::make_motion(std::size(kMoved), 0.0);
-  std::vector<Point> resolved, now, guard;
-  std::vector<Index> moved;
-  for (const Moved& m : kMoved) {
-    moved.push_back(static_cast<Index>(moved.size()));
-    resolved.push_back(to_point(top + Vec3(0, m.from_m, 0)));
-    now.push_back(to_point(top + Vec3(0, m.to_m, 0)));
-  }
-  guard.resize(moved.size());
-  const cloth::ResolvedBody body{&ball, &still, static_cast<float>(kThickness_m), 0.0f};
-  CHECK(cloth::guard_sunk({}, body, moved, resolved, now, guard));
-  for (const Index i : moved) {
-    CAPTURE(i);
-    CHECK((guard[i].weight != 0.0f) == kMoved[i].sinks);
-    Point kept;
-    cloth::store(kept, cloth::guarded(cloth::load(now[i]), resolved[i], guard[i]));
-    const double wanted_m = kMoved[i].sinks ? kMoved[i].from_m : kMoved[i].to_m;
-    CHECK(std::abs((to_vec(kept) - top).y() - wanted_m) < 1e-6);
-  }
-  CHECK(!cloth::guard_sunk({}, {}, moved, resolved, now, guard));
+  check_guards(kMoved, kThickness_m);
+}
+
+TEST_CASE("sunk particles: where the body yields, they may come that near, but no deeper than they were") {
+  check_guards(kYielding, kYielded_m);
+}
+
+TEST_CASE("sunk particles: between two walls, the second guard is the wall that the first one led into") {
+  // Two balls whose surfaces are 6 mm apart where they are nearest; the particle begins on the left one.
+  const std::vector<geometry::Ellipsoid> walls = {
+      ellipsoid(Vec3(-kRadius_m - 3e-3, 0, 0), Vec3::Constant(kRadius_m)),
+      ellipsoid(Vec3(kRadius_m + 3e-3, 0, 0), Vec3::Constant(kRadius_m))};
+  const collision::Collider body = collider_of(walls);
+  const cloth::BodyMotion still = cloth::make_motion(1, 0.0);
+  const auto thickness = static_cast<float>(kThickness_m);
+  const cloth::ResolvedBody resolved_body{&body, &still, thickness, thickness};
+  const auto in_frame = [&](double x_m) { return to_point(Vec3(x_m, 0, 0) - body.origin()); };
+  const Point resolved = in_frame(-3e-3 + kThickness_m);
+  const std::vector<Index> moved = {0};
+  std::vector<cloth::Guard> guard(1);
+  std::vector<Point> now = {in_frame(-3e-3 + 0.5 * kThickness_m)};
+  REQUIRE(cloth::guard_sunk({}, resolved_body, moved, {&resolved, 1}, now, guard));
+  CHECK(guard[0].x > 0.99f);
+  now[0] = in_frame(3e-3 - 0.5 * kThickness_m);  // it is pushed across the gap, into the other wall
+  REQUIRE(cloth::guard_sunk({}, resolved_body, moved, {&resolved, 1}, now, guard));
+  CHECK(guard[0].x < -0.99f);
+  Point kept;
+  cloth::store(kept, cloth::guarded(cloth::load(now[0]), resolved, guard[0]));
+  CHECK(std::abs(to_vec(kept).x() + body.origin().x() - (3e-3 - kThickness_m)) < 1e-5);
 }
 
 TEST_CASE("crossings: layers that passed each other far in a frame are found to cross, all of them") {
@@ -112,7 +154,7 @@ TEST_CASE("crossings: layers that passed each other far in a frame are found to 
   CHECK(self.tangles == after.tangles());
   for (const cloth::Tangle& t : self.tangles)
     for (const std::uint32_t f : {t.a, t.b})
-      for (const Index i : self.mesh.faces[f].particle) CHECK(self.loose.state[i] != 0);
+      for (const Index i : self.mesh.faces[f].particle) CHECK(self.loose.is_loose[i] != 0);
 }
 
 TEST_CASE("tangles: what is drawn apart moves no farther than a step, and stays where both lie on the body") {

@@ -10,6 +10,7 @@
 
 #include <bodice/engine/context.hpp>
 
+#include "contact/sunk_particles.hpp"
 #include "pairs/pairs.hpp"
 
 namespace bodice::inline v0_1::cloth {
@@ -61,7 +62,8 @@ struct PairPush {
   std::span<const Point> before;           ///< #P
   std::span<const std::uint8_t> touching;  ///< #P: whether the particle lies on the body
   /// #P, or empty: what keeps particles from sinking into the body (contact/sunk_particles.hpp).
-  std::span<const Point> resolved, guard;
+  std::span<const Point> resolved;
+  std::span<const Guard> guard;
 };
 
 /// Pushes the parts of all contacts apart: those inside blocks in parallel, because blocks share no particle,

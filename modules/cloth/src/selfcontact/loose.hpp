@@ -1,6 +1,6 @@
 // Which particles layers may pass. Where the body left no room, or where the simulation began crossed, layers
-// are on each other's wrong side, and contact would keep them there. So particles near triangles that cross
-// are loose: contact does not act between them, until the line of crossing that they passed is gone.
+// are on each other's wrong side, and contact would keep them there. So the corners of triangles that cross
+// are loose: contact does not act between them.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@ namespace bodice::inline v0_1::cloth {
 
 /// The particles that are loose.
 struct Loose {
-  std::vector<std::uint8_t> state;    ///< #P: not zero if it is
-  std::vector<Index> list, released;  ///< those; and room for the same
+  std::vector<std::uint8_t> is_loose;  ///< #P
+  std::vector<Index> list;
 };
 
 Loose make_loose(std::size_t particles);
 
-/// Loosens the corners of all triangles that cross and their neighbors. Those that were loose stay so if
-/// others join them to these, because they passed the line along which the triangles cross.
+/// Loosens the corners of all triangles that cross, and no other particles. With the corners' neighbors, more
+/// layers crossed near a tangle than it had to begin with.
 void loosen(const ContactMesh& mesh, std::span<const Tangle> tangles, Loose& loose);
 
 /// Whether both parts of a pair have loose particles.

@@ -47,6 +47,16 @@ constexpr int kFirmRounds = 4, kMostRounds = 16;
 // cross.
 constexpr int kGuardings = 4;
 
+// The distance from the body to which particles may be moved where layers would cross otherwise: a share of
+// the thickness, but no deeper than so many meters.
+struct Yield {
+  float share, most_deep_m;
+};
+// Yields are tried in this order. With the second the skin is still covered. With the last cloth is a little
+// inside, less than half of what a bar for garments in motion allows: between two walls it has no other
+// place.
+constexpr Yield kYields[] = {{1.0f, 0.0f}, {0.2f, 0.0f}, {-0.6f, 7e-4f}};
+
 // Lists the groups of particles on the paths that are expected.
 void search(const engine::Context& context, SelfContact& s) {
   refit(context, s.mesh, s.found, s.ahead, s.tree);
@@ -69,7 +79,7 @@ void keep_groups(const engine::Context& context, const SelfSubstep& substep, std
 }
 
 ContactSource source_of(const SelfContact& s) {
-  return {s.mesh, {s.gap_m, s.slack_m, 0.0f, s.before}, s.rest, s.moves, s.loose.state};
+  return {s.mesh, {s.gap_m, s.slack_m, 0.0f, s.before}, s.rest, s.moves, s.loose.is_loose};
 }
 
 void copy_points(const engine::Context& context, const Particles& p, std::vector<Point>& to) {
@@ -131,6 +141,10 @@ void zone(const engine::Context& context, const SelfSubstep& substep, const Part
   clear_zones(s.zones);
 }
 
+bool any_pressed(const SelfContact& s) {
+  return std::ranges::any_of(s.tasks, [](const PairTask& task) { return !task.pressed.empty(); });
+}
+
 // Guards the particles that sank into the body since contact with it was resolved; returns whether there are
 // any.
 bool guard_moved(const engine::Context& context, const ResolvedBody& body, SelfContact& s) {
@@ -142,27 +156,39 @@ bool guard_moved(const engine::Context& context, const ResolvedBody& body, SelfC
   return guard_sunk(context, body, s.moved, s.zones.resolved, s.now, s.zones.guard);
 }
 
-// Lets nothing cross, except where the body leaves no room for that. Particles that sank into the body are
-// moved outward only, and those that sink all the same are put back, because contact with the body is
-// resolved last.
-void part(const engine::Context& context, const SelfSubstep& substep, const ResolvedBody& body,
-          const Particles& p, SelfContact& s) {
-  std::ranges::copy(s.now, s.zones.resolved.begin());
-  std::ranges::fill(s.zones.guard, Point{});
-  bool crossing = true;
+// Parts all pairs that would cross, without moving particles deeper into the body than it yields; returns
+// whether that succeeded. Particles that sank are moved outward only, and those that sink all the same are
+// put back, because contact with the body is resolved last.
+bool part_all(const engine::Context& context, const SelfSubstep& substep, const ResolvedBody& body,
+              const Particles& p, SelfContact& s) {
+  std::ranges::fill(s.zones.guard, Guard{});
+  bool crossing = count_crossing(context, substep, Room::kAmple, false, s) > 0;
   for (int round = 0; round <= kGuardings; ++round) {
     if (crossing && !part_pairs(context, substep, s)) zone(context, substep, p, s);
-    if (!guard_moved(context, body, s)) return;
+    if (!guard_moved(context, body, s)) return !any_pressed(s);
     for (const Index i : s.moved)
       store(s.now[i], guarded(load(s.now[i]), s.zones.resolved[i], s.zones.guard[i]));
     note_moved(s.moved, s);
     crossing = count_crossing(context, substep, Room::kAmple, true, s) > 0;
   }
   for (const Index i : s.moved)
-    if (s.zones.guard[i].weight > 0.0f) s.now[i] = s.zones.resolved[i];
+    if (is_guarded(s.zones.guard[i])) s.now[i] = s.zones.resolved[i];
   count_crossing(context, substep, Room::kScarce, false, s);
   for (PairTask& task : s.tasks)
     for (const std::uint32_t k : task.crossing) task.pressed.push_back(task.pairs[k]);
+  return !any_pressed(s);
+}
+
+// Lets nothing cross. Where the body leaves no room, cloth comes nearer to it than its thickness, and at last
+// into the skin, by less than shows. Where that does not do either, layers cross.
+void part(const engine::Context& context, const SelfSubstep& substep, ResolvedBody body, const Particles& p,
+          SelfContact& s) {
+  std::ranges::copy(s.now, s.zones.resolved.begin());
+  for (const Yield& yield : kYields) {
+    body.least_m = std::max(yield.share * body.thickness_m, -yield.most_deep_m);
+    std::ranges::copy(s.zones.resolved, s.now.begin());
+    if (part_all(context, substep, body, p, s)) return;
+  }
 }
 
 // Copies the points that moved to the particles' positions, and adds the displacement over the substep to

@@ -1,8 +1,9 @@
 // Contact of the cloth with itself: particles with triangles, and edges with edges. What does not cross when
 // a substep begins does not cross when it ends: pairs that may touch are known ahead of the motion
 // (pairs.hpp), pushed apart to their gap (contacts.hpp), and held back where they would cross after all
-// (zones.hpp). Where the body leaves no room for that, they cross until it does (contact/sunk_particles.hpp,
-// loose.hpp). What crosses when the simulation begins is drawn apart (tangles.hpp).
+// (zones.hpp). Where the body leaves no room, cloth comes nearer to it than its thickness
+// (contact/sunk_particles.hpp). Where that does not help, layers cross until there is room (loose.hpp).
+// What crosses when the simulation begins is drawn apart (tangles.hpp).
 // Based on: Anka He Chen, Jerry Hsu, Ziheng Liu, Miles Macklin, Yin Yang, Cem Yuksel. Offset Geometric
 // Contact. 2025. - section 4 (a bound on displacements keeps what is free of crossings so, without continuous
 // tests)
@@ -31,7 +32,7 @@ struct SelfContact {
   SweepTree tree;
   std::vector<PairTask> tasks;
   std::vector<Tangle> tangles;             ///< triangles that cross
-  Loose loose;                             ///< particles near these, which contact leaves alone
+  Loose loose;                             ///< corners of these, which contact leaves alone
   std::vector<Point> rest;                 ///< #P: positions at rest, meters, in the particles' first frame
   std::vector<Point> before, now;          ///< #P: positions when the substep began, and at its end
   std::vector<std::uint8_t> moved_leaves;  ///< #leaves: those with particles that were, since the last search

@@ -117,7 +117,7 @@ void enter(Index i, std::span<const Point> before, std::span<const Point> now, Z
 void lift_zones(std::span<const Point> before, Zones& z) {
   for (int sweep = 0; sweep < kLifts; ++sweep)
     for (const Index i : z.members) {
-      if (z.guard[i].weight == 0.0f) continue;
+      if (!is_guarded(z.guard[i])) continue;
       Float4& moved = z.moved[root_of(i, z.parent)];
       const Float4 to = xyz(load(before[i])) + moved;
       moved += xyz(guarded(to, z.resolved[i], z.guard[i]) - to);

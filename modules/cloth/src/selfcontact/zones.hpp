@@ -9,17 +9,19 @@
 #include <vector>
 
 #include "base/particles.hpp"
+#include "contact/sunk_particles.hpp"
 #include "selfcontact/contacts.hpp"
 
 namespace bodice::inline v0_1::cloth {
 
 /// The zones of a substep.
 struct Zones {
-  std::vector<Index> parent;           ///< #P: union-find; a particle of no zone is its own parent
-  std::vector<Index> members;          ///< the particles of all zones
-  std::vector<Float4> moved;           ///< #P: at a zone's root: mass times displacement, and mass
-  std::vector<Point> wanted;           ///< as members: their displacements before they joined a zone
-  std::vector<Point> resolved, guard;  ///< #P: what keeps particles from sinking (contact/sunk_particles.hpp)
+  std::vector<Index> parent;    ///< #P: union-find; a particle of no zone is its own parent
+  std::vector<Index> members;   ///< the particles of all zones
+  std::vector<Float4> moved;    ///< #P: at a zone's root: mass times displacement, and mass
+  std::vector<Point> wanted;    ///< as members: their displacements before they joined a zone
+  std::vector<Point> resolved;  ///< #P: positions where contact with the body was resolved
+  std::vector<Guard> guard;     ///< #P: what keeps particles from sinking from there
 };
 
 Zones make_zones(std::size_t particles);
@@ -33,7 +35,7 @@ enum class Room : std::uint8_t { kAmple, kScarce };
 /// The particles and leaves among which pairs that would cross are searched for.
 struct CrossingSearch {
   std::span<const Point> now;    ///< #P: where paths end; a particle without weight cannot be moved
-  std::span<const Point> guard;  ///< #P: as Zones::guard
+  std::span<const Guard> guard;  ///< #P: as Zones::guard
   std::span<const Index> zone;   ///< #P: as Zones::parent
   std::span<const std::uint8_t>
       moved;  ///< #leaves: whether its particles moved since the last search; or empty

@@ -106,7 +106,8 @@ SelfSubstep self_substep(const Plan& plan, const State& s) {
 }
 
 ResolvedBody resolved_body(const collision::Collider* collider, const FrameShare& share, const State& s) {
-  return {collider, &s.contacts.motion, static_cast<float>(s.options.thickness_m), 1.0f - share.end};
+  const auto thickness_m = static_cast<float>(s.options.thickness_m);
+  return {collider, &s.contacts.motion, thickness_m, thickness_m, 1.0f - share.end};
 }
 
 std::uint32_t run_substep(const engine::Context& context, const collision::Collider* collider,
