@@ -47,15 +47,10 @@ constexpr int kFirmRounds = 4, kMostRounds = 16;
 // cross.
 constexpr int kGuardings = 4;
 
-// The distance from the body to which particles may be moved where layers would cross otherwise: a share of
-// the thickness, but no deeper than so many meters.
-struct Yield {
-  float share, most_deep_m;
-};
-// Yields are tried in this order. With the second the skin is still covered. With the last cloth is a little
-// inside, less than half of what a bar for garments in motion allows: between two walls it has no other
-// place.
-constexpr Yield kYields[] = {{1.0f, 0.0f}, {0.2f, 0.0f}, {-0.6f, 7e-4f}};
+// The distances from the body to which particles may be moved where layers would cross otherwise, shares of
+// the thickness, tried in this order. With a fifth more skin shows between coarse triangles, with a half more
+// crosses, and cloth that may be inside is locked there by its own layers.
+constexpr float kYields[] = {1.0f, 0.3f};
 
 // Lists the groups of particles on the paths that are expected.
 void search(const engine::Context& context, SelfContact& s) {
@@ -179,13 +174,13 @@ bool part_all(const engine::Context& context, const SelfSubstep& substep, const 
   return !any_pressed(s);
 }
 
-// Lets nothing cross. Where the body leaves no room, cloth comes nearer to it than its thickness, and at last
-// into the skin, by less than shows. Where that does not do either, layers cross.
+// Lets nothing cross. Where the body leaves no room, cloth comes nearer to it than its thickness; where that
+// does not help, layers cross.
 void part(const engine::Context& context, const SelfSubstep& substep, ResolvedBody body, const Particles& p,
           SelfContact& s) {
   std::ranges::copy(s.now, s.zones.resolved.begin());
-  for (const Yield& yield : kYields) {
-    body.least_m = std::max(yield.share * body.thickness_m, -yield.most_deep_m);
+  for (const float share : kYields) {
+    body.least_m = share * body.thickness_m;
     std::ranges::copy(s.zones.resolved, s.now.begin());
     if (part_all(context, substep, body, p, s)) return;
   }
