@@ -121,7 +121,7 @@ TEST_CASE("sunk particles: where the body yields, they may come that near, but n
 }
 
 TEST_CASE("sunk particles: between two walls, the second guard is the wall that the first one led into") {
-  // Two balls whose surfaces are 6 mm apart where they are nearest; the particle begins on the left one.
+  // The surfaces of two balls are 6 mm apart where they are nearest; the particle begins on the left one.
   const std::vector<geometry::Ellipsoid> walls = {
       ellipsoid(Vec3(-kRadius_m - 3e-3, 0, 0), Vec3::Constant(kRadius_m)),
       ellipsoid(Vec3(kRadius_m + 3e-3, 0, 0), Vec3::Constant(kRadius_m))};

@@ -19,8 +19,8 @@ struct ResolvedBody {
   float remaining = 0.0f;    ///< share of the frame that is left after the substep
 };
 
-/// What keeps a particle out of the body: it stays in front of a plane, whose distance from where contact
-/// with the body was resolved is `weight` along the normal x, y, z. Without a normal nothing keeps it.
+/// What keeps a particle out of the body: it stays in front of a plane. `weight` is the plane's distance from
+/// where contact with the body was resolved, along the normal x, y, z. Without a normal nothing keeps it.
 using Guard = Point;
 
 inline bool is_guarded(const Guard& guard) {
