@@ -50,7 +50,7 @@ struct Row {
   Group group;
   const Correction* correction;
   Vec3 missing;                                      ///< from the first estimate to the true landmark
-  Eigen::Matrix<double, 3, Eigen::Dynamic> factors;  ///< of the unknowns, in each coordinate
+  Eigen::Matrix<double, 3, Eigen::Dynamic> factors;  ///< what unknowns are multiplied by
   double weight = 0.0;
 };
 

@@ -47,10 +47,9 @@ constexpr int kFirmRounds = 4, kMostRounds = 16;
 // cross.
 constexpr int kGuardings = 4;
 
-// The distances from the body to which particles may be moved where layers would cross otherwise, shares of
-// the thickness, tried in this order. With a fifth more skin shows between coarse triangles, with a half more
-// crosses, and cloth that may be inside is locked there by its own layers.
-constexpr float kYields[] = {1.0f, 0.3f};
+// The share of the thickness that particles keep from the body where layers would cross otherwise. With a
+// fifth more skin shows between coarse triangles, with a half more layers cross.
+constexpr float kYieldedShare = 0.3f;
 
 // Lists the groups of particles on the paths that are expected.
 void search(const engine::Context& context, SelfContact& s) {
@@ -151,13 +150,13 @@ bool guard_moved(const engine::Context& context, const ResolvedBody& body, SelfC
   return guard_sunk(context, body, s.moved, s.zones.resolved, s.now, s.zones.guard);
 }
 
-// Parts all pairs that would cross, without moving particles deeper into the body than it yields; returns
-// whether that succeeded. Particles that sank are moved outward only, and those that sink all the same are
-// put back, because contact with the body is resolved last.
+// Parts the pairs that were found to cross, and moves no particle nearer to the body than `body.least_m`;
+// returns whether that succeeded. Particles that sank are kept in front of their guards. Those that sink all
+// the same are put back, because contact with the body is resolved last.
 bool part_all(const engine::Context& context, const SelfSubstep& substep, const ResolvedBody& body,
               const Particles& p, SelfContact& s) {
   std::ranges::fill(s.zones.guard, Guard{});
-  bool crossing = count_crossing(context, substep, Room::kAmple, false, s) > 0;
+  bool crossing = true;
   for (int round = 0; round <= kGuardings; ++round) {
     if (crossing && !part_pairs(context, substep, s)) zone(context, substep, p, s);
     if (!guard_moved(context, body, s)) return !any_pressed(s);
@@ -179,11 +178,12 @@ bool part_all(const engine::Context& context, const SelfSubstep& substep, const 
 void part(const engine::Context& context, const SelfSubstep& substep, ResolvedBody body, const Particles& p,
           SelfContact& s) {
   std::ranges::copy(s.now, s.zones.resolved.begin());
-  for (const float share : kYields) {
-    body.least_m = share * body.thickness_m;
-    std::ranges::copy(s.zones.resolved, s.now.begin());
-    if (part_all(context, substep, body, p, s)) return;
-  }
+  body.least_m = body.thickness_m;
+  if (part_all(context, substep, body, p, s)) return;
+  std::ranges::copy(s.zones.resolved, s.now.begin());
+  count_crossing(context, substep, Room::kAmple, false, s);
+  body.least_m = kYieldedShare * body.thickness_m;
+  part_all(context, substep, body, p, s);
 }
 
 // Copies the points that moved to the particles' positions, and adds the displacement over the substep to
