@@ -48,6 +48,7 @@ collision::Collider collider_in(const engine::Context& context, const Judged& j,
   or_exit(poser.pose(context, joints));
   collision::Collider collider(j.body.fit.proxy);
   collider.pose(poser.posed(), 0.0);
+  collider.cover(context, j.draped.body_frames[frame]);
   return collider;
 }
 

@@ -69,6 +69,7 @@ Wear wear(const engine::Context& context, const Body& body, const tryon::WornGar
   const tryon::Wardrobe all = tryon::join({garment}).value();
   cloth::SolverOptions settings = options.solver;
   collision::Collider collider(body.proxy);
+  collider.cover(context, body.skin.input.skin.positions);
   settings.thickness_m = tryon::known_thickness_m(context, all.mesh, *body.skin.distance, collider);
   auto made = cloth::Solver::make(all.mesh, all.held, options.fabric, settings);
   Wear out;

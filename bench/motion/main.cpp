@@ -121,6 +121,9 @@ bench::MotionResult measure(const engine::Context& context, const Subject& subje
   std::vector<double> refit_ms = refit.refit_ms();
   std::ranges::sort(refit_ms);
   result.refit_ms = refit_ms[refit_ms.size() / 2];
+  bench::PosedProxy covering = bench::PosedProxy::covering(body);
+  result.methods.push_back(judge(covering, frames, truths, 1));
+  result.methods.back().cost = bench::cost_of(covering, frames, body.skin, arguments.particles, 3);
   if (arguments.prepared) {
     const proxy::BasePoses bases =
         bench::or_exit(tryon::make_base_poses(context, body.fit.proxy, body.skin, motion));

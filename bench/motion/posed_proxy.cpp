@@ -31,7 +31,10 @@ void PosedProxy::pose(const MovingFrame& frame) {
     or_exit(poser_.keep_base(base));
   }
   pose_alone(frame, {});
-  if (collider_.pose(poser_.posed(), 0.0)) return;
+  if (collider_.pose(poser_.posed(), 0.0)) {
+    if (covers_) collider_.cover({}, frame.skin.positions);
+    return;
+  }
   std::fprintf(stderr, "The collider refuses a pose.\n");
   std::exit(1);
 }

@@ -13,13 +13,22 @@ namespace bench {
 class PosedProxy final : public MovingPeer {
  public:
   PosedProxy(const bodice::tryon::PreparedBody& body, bool refit);
+  /// Carried, and raised where the posed skin is outside of it.
+  static PosedProxy covering(const bodice::tryon::PreparedBody& body) {
+    PosedProxy made(body, false);
+    made.covers_ = true;
+    return made;
+  }
   /// Carried, with base poses that were made beforehand.
   PosedProxy(const bodice::tryon::PreparedBody& body, const bodice::proxy::BasePoses& bases);
 
   std::string name() const override {
-    return refit_ ? "bodice, refit in the pose" : has_bases_ ? "bodice, clip prepared" : "bodice, carried";
+    return refit_       ? "bodice, refit in the pose"
+           : has_bases_ ? "bodice, clip prepared"
+           : covers_    ? "bodice, carried and covering"
+                        : "bodice, carried";
   }
-  bool needs_skin() const override { return false; }
+  bool needs_skin() const override { return covers_; }
   void pose(const MovingFrame& frame) override;
   void query(const Cloud& cloud, std::span<float> distance_m) override;
   double bytes() const override {
@@ -34,7 +43,7 @@ class PosedProxy final : public MovingPeer {
 
  private:
   const bodice::tryon::PreparedBody* body_;
-  bool refit_ = false, has_bases_ = false;
+  bool refit_ = false, has_bases_ = false, covers_ = false;
   bodice::binding::Poser poser_;
   bodice::collision::Collider collider_;
   std::vector<bodice::collision::Contact> contacts_;

@@ -113,3 +113,38 @@ TEST_CASE("the surface of a posed collider moves as the skin does, also where ax
   CHECK(error_m_s < 0.15 * speed_m_s);
   CHECK(worst_m_s < fastest_m_s);
 }
+
+TEST_CASE("a posed collider that covers the skin is nowhere below it, and the next pose takes that back") {
+  const MovingBody& moving = moving_body();
+  binding::Poser poser = make_poser(moving);
+  collision::Collider collider(moving.bound), without(moving.bound);
+  constexpr float kTolerance_m = 0.7e-3f, kRounding_m = 0.1e-3f;
+  for (const Pose& pose :
+       {march(moving.body.skeleton), seat(moving.body.skeleton), squat(moving.body.skeleton)}) {
+    REQUIRE(poser.pose({}, pose));
+    REQUIRE(collider.pose(poser.posed(), 0.0));
+    REQUIRE(without.pose(poser.posed(), 0.0));
+    const std::vector<Vec3> skin = posed_skin(moving, pose).positions;
+    const auto distance_m = [&](const collision::Collider& of, const Vec3& point) {
+      const Eigen::Vector3f local = (point - of.origin()).cast<float>();
+      return of.query({local.x(), local.y(), local.z()}).signed_distance;
+    };
+    const auto count_below = [&](float by_m) {
+      return std::ranges::count_if(skin, [&](const Vec3& v) { return distance_m(collider, v) > by_m; });
+    };
+    const auto below = count_below(kTolerance_m);
+    CHECK(static_cast<std::size_t>(below) > skin.size() / 50);
+    const auto report = collider.cover({}, skin, {.tolerance_m = kTolerance_m});
+    CHECK(report.uncovered == static_cast<std::size_t>(below));
+    CHECK(static_cast<std::size_t>(count_below(kTolerance_m + kRounding_m)) <= report.left);
+    CHECK(report.left <= report.uncovered / 50);
+    CHECK(report.left_m < 2e-3f);
+    double risen_m = 0.0;  // by the mean over the skin
+    for (const Vec3& v : skin)
+      risen_m += double{distance_m(without, v) - distance_m(collider, v)} / static_cast<double>(skin.size());
+    CHECK(risen_m < 0.15e-3);
+    REQUIRE(collider.pose(poser.posed(), 0.0));
+    CHECK(std::ranges::all_of(
+        skin, [&](const Vec3& v) { return distance_m(collider, v) == distance_m(without, v); }));
+  }
+}

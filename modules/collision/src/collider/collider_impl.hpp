@@ -6,6 +6,7 @@
 #include <bodice/collision/collider.hpp>
 
 #include "collider/block_io.hpp"
+#include "collider/cover_scratch.hpp"
 #include "collider/workspace.hpp"
 #include "exact/response.hpp"
 #include "exact/union_field.hpp"
@@ -69,6 +70,12 @@ struct Collider::Impl {
   void move(std::span<const geometry::Ellipsoid> now, std::span<const geometry::Mat3> axes_of_material,
             double dt_s) noexcept;
 
+  /// Queries the points cover.point of the skin, and lists those that are outside by more than the tolerance.
+  void find_uncovered(const engine::Context& context, std::span<const geometry::Vec3> skin,
+                      float tolerance_m);
+  /// Raises the tables of all owners of listed points.
+  void raise_uncovered(const engine::Context& context);
+
   std::uint64_t proxy_hash;
   std::uint64_t poses = 0;
   geometry::Vec3 origin;
@@ -87,6 +94,7 @@ struct Collider::Impl {
   std::vector<AffineMotion> affine_motions;  ///< those of the last move
   bool moving = false;
   double moved_dt_s = 0.0;
+  CoverScratch cover;
   float travel_m = 0.0f;  ///< bound on the displacement of any material in the last move
 };
 

@@ -80,6 +80,13 @@ TableValue read_table(const ReliefTables& relief, const BakedTable& table, const
   return result;
 }
 
+TexelStencil texels_around(const UnionField& field, const ReliefTables& relief, std::uint32_t k,
+                           const geometry::ClosestPoint& at) {
+  const auto [texel, u, v, half] = cell_of(relief.tables[k], unit_direction(field.shape(k), at));
+  const auto first = static_cast<std::size_t>(texel), n = static_cast<std::size_t>(relief.tables[k].nodes);
+  return {{first, first + 1, first + n, first + n + 1}, {(1 - v) * (1 - u), (1 - v) * u, v * (1 - u), v * u}};
+}
+
 ReliefSample correct(const UnionField& field, const ReliefTables& relief, std::uint32_t k,
                      const geometry::ClosestPoint& at) {
   const BakedTable& table = relief.tables[k];

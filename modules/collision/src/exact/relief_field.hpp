@@ -14,6 +14,15 @@ struct TableValue {
 };
 TableValue read_table(const ReliefTables& relief, const BakedTable& table, const geometry::Vec3& w);
 
+/// The four texels between which a table is read at an ellipsoid's closest point, counted from the table's
+/// own first texel, and their weights.
+struct TexelStencil {
+  std::size_t texel[4];
+  double weight[4];
+};
+TexelStencil texels_around(const UnionField& field, const ReliefTables& relief, std::uint32_t k,
+                           const geometry::ClosestPoint& at);
+
 /// A distance with its gradient and owner.
 struct ReliefSample {
   double distance_m = 0.0;                            ///< F, margin not subtracted

@@ -174,6 +174,20 @@ ReliefTables::ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::u
   farthest = farthest_of(reaches);
 }
 
+void ReliefTables::bound_again(std::size_t k) {
+  reaches[k] = reach_in_pose(tables[k], texels.data() + tables[k].first_byte, in_m, out_m);
+}
+
+void ReliefTables::bound_all_again() {
+  farthest = farthest_of(reaches);
+  highest_m = 0.0f;
+  for (const BakedTable& table : tables) {
+    const float h = std::max(table.h_offset_m, table.h_offset_m + 255.0f * table.h_scale_m);
+    const float a = std::max(std::abs(table.a_offset), std::abs(table.a_offset + 255.0f * table.a_scale));
+    highest_m = std::max(highest_m, h + a * std::max(in_m, out_m));
+  }
+}
+
 void ReliefTables::update(const proxy::PosedProxy& posed, double stature_m,
                           std::span<const std::uint32_t> order) {
   const proxy::ReliefReach reach = proxy::relief_reach(stature_m * posed.scale);

@@ -50,6 +50,11 @@ struct ReliefTables {
   /// the same for all octants then. Allocates nothing.
   void update(const proxy::PosedProxy& posed, double stature_m, std::span<const std::uint32_t> order);
 
+  /// Bounds a table anew after its texels or scales have changed. Different tables may be bounded at once.
+  void bound_again(std::size_t k);
+  /// Finds the bounds that hold for all tables from those of each.
+  void bound_all_again();
+
   std::vector<BakedTable> tables;
   /// Whether the tables are those of a pose, with burial.
   bool buries() const { return burial_m > 0.0f; }

@@ -43,8 +43,8 @@ double ramp_s(const engine::Context& context, const DrapeOptions& options, const
 engine::Result<double> thickness_m(const engine::Context& context, const DrapeOptions& options,
                                    const PreparedBody& body, const geometry::TriMesh& garments) {
   if (options.thickness_m) return *options.thickness_m;
-  const double at_rest_m =
-      known_thickness_m(context, garments, *body.skin.distance, collision::Collider(body.fit.proxy));
+  const MovingBody standing = MovingBody::make(body.skin, body.fit.proxy, false).value();
+  const double at_rest_m = known_thickness_m(context, garments, *body.skin.distance, standing.collider());
   if (!options.motion) return at_rest_m;
   const auto moving_m = moving_thickness_m(context, garments, body, *options.motion);
   if (!moving_m) return moving_m.error();

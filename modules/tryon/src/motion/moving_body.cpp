@@ -12,6 +12,7 @@ using geometry::Vec3;
 engine::Result<MovingBody> MovingBody::make(const SegmentedSkin& skin, const proxy::BodyProxy& proxy,
                                             bool moves) {
   MovingBody moving(skin, proxy);
+  moving.collider_.cover({}, skin.input.skin.positions);
   if (!moves) return moving;
   if (!skin.rig)
     return engine::Error{engine::ErrorCode::kInvalidArgument, "The body has no rig that could move it.",
@@ -55,7 +56,15 @@ engine::Result<void> MovingBody::pose(const engine::Context& context, std::span<
   rig::skinning_matrices(skin_->rig->skeleton, joints, skinning_);
   is_skinned_ = false;
   distance_.reset();
+  cover(context, options.within);
   return {};
+}
+
+void MovingBody::cover(const engine::Context& context, std::optional<std::span<const geometry::Box>> within) {
+  if (!collider_.has_relief()) return;
+  if (blend_.share() > 0.0) skin_positions({});  // into posed_
+  const std::vector<Vec3>& positions = blend_.share() > 0.0 ? posed_.positions : skin(context).positions;
+  collider_.cover(context, positions, {.within = within});
 }
 
 const geometry::TriMesh& MovingBody::skin(const engine::Context& context) {

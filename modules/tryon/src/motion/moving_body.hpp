@@ -19,15 +19,15 @@ namespace bodice::inline v0_1::tryon {
 /// A collider with the skin that judges it. Not thread-safe. Keeps a reference to the skin.
 class MovingBody {
  public:
-  /// `moves` false: the body stands still, whatever its proxy. Fails with kInvalidArgument where the body is
-  /// to move and its proxy is not bound, or its skin has no rig.
+  /// `moves` false: the body stands still, whatever its proxy. The collider covers the skin at rest. Fails
+  /// with kInvalidArgument where the body is to move and its proxy is not bound, or its skin has no rig.
   static engine::Result<MovingBody> make(const SegmentedSkin& skin, const proxy::BodyProxy& proxy,
                                          bool moves);
 
   bool moves() const noexcept { return poser_.has_value(); }
   /// Poses the collider by the joints, #J; contacts then use the velocity of a surface that came here in
-  /// dt_s. Outside of the boxes `options.within` tables stay as at rest. Fails where a matrix is refused, and
-  /// then nothing moves. Allocates nothing.
+  /// dt_s. Outside of the boxes `options.within` tables stay as at rest; within, they cover the skin. Fails
+  /// where a matrix is refused, and then nothing moves. Allocates nothing.
   engine::Result<void> pose(const engine::Context& context, std::span<const rig::Affine> joints, double dt_s,
                             const binding::PoseOptions& options = {});
 
@@ -57,6 +57,9 @@ class MovingBody {
  private:
   MovingBody(const SegmentedSkin& skin, const proxy::BodyProxy& proxy)
       : skin_(&skin), collider_(proxy), blend_(proxy, skin.input.skin.positions) {}
+
+  /// Raises the collider where the skin in the pose in force is outside of it.
+  void cover(const engine::Context& context, std::optional<std::span<const geometry::Box>> within);
 
   const SegmentedSkin* skin_;
   collision::Collider collider_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include <bodice/engine/context.hpp>
@@ -103,6 +104,23 @@ struct ContactReport {
   void add(const ContactReport& other);
 };
 
+/// Settings of Collider::cover().
+struct CoverOptions {
+  /// Points that are outside of the surface by more than this make it rise, until they are by less, meters.
+  /// With less than half a millimeter the surface lies over the skin between its vertices.
+  float tolerance_m = 0.7e-3f;
+  /// Only points in one of these boxes (world, meters) count; all if absent.
+  std::optional<std::span<const geometry::Box>> within;
+};
+
+/// Counts of what Collider::cover() did.
+struct CoverReport {
+  std::size_t uncovered = 0;  ///< points that were outside of the surface by more than the tolerance
+  std::size_t left = 0;       ///< those of them that still are
+  float farthest_m = 0.0f;    ///< the largest distance by which one was outside
+  float left_m = 0.0f;        ///< the largest distance by which one still is; zero if none is left
+};
+
 /// The state that a caller keeps from call to call for one set of particles. It holds a spatial order, so
 /// that the speed does not depend on the order of the arrays. It also holds the candidate cache, which stays
 /// valid while particles and proxy move by millimeters. It never changes a bit of a response or of an exact
@@ -163,6 +181,17 @@ class Collider {
   /// unfit, as for move_to(). Allocates nothing and must not overlap another call. Cost: as move_to(), and
   /// some nanoseconds a texel.
   bool pose(const proxy::PosedProxy& posed, double dt_s) noexcept;
+  /// Raises relief where points of the body's skin in the pose in force (#S, world, meters), such as its
+  /// vertices, are outside of the surface: a table that follows the joints errs most in creases, and cloth
+  /// that lies on it there is below the skin. Around such a point the table of its owner rises, in at most
+  /// three rounds. Points over 30 mm outside (of 1.70 m) are not of this surface and stay. Nothing is
+  /// lowered. The next pose() takes all of it back; after move_to() the tables stay as they are. Without
+  /// relief nothing happens. The same bits for any number of workers. Allocates when there are more points
+  /// than ever before, and must not overlap another call. Throws engine::Canceled. Cost: a query a point, .2
+  /// microseconds for one that is outside, and some microseconds a table that rises; neighbors in space
+  /// should be neighbors.
+  CoverReport cover(const engine::Context& context, std::span<const geometry::Vec3> skin,
+                    const CoverOptions& options = {});
   /// Velocity of the body's material at a point that moves with an ellipsoid; meters a second, local frame.
   geometry::Vec3 surface_velocity(std::uint32_t ellipsoid, const geometry::Vec3& local_point) const noexcept;
 
