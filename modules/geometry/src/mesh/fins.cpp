@@ -22,6 +22,7 @@ struct Piece {
 
 std::vector<bool> find_fins(const TriMesh& mesh, const MeshEdges& edges) {
   const auto count = static_cast<Index>(mesh.triangles.size());
+  if (edges.non_manifold == 0) return std::vector<bool>(count);  // fins hang on an edge of three triangles
   DisjointSets sets(count);
   for (Index e = 0; e < edges.ends.size(); ++e)
     if (edges.joins_two(e)) sets.unite(edges.triangles[e][0], edges.triangles[e][1]);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/message.hpp>
@@ -114,22 +115,28 @@ class Repair {
 
   /// Drops every triangle on the same three vertices as an earlier one, whatever its winding.
   void drop_duplicates() {
-    struct Key {
-      Triangle corners;
-      Index triangle;
-      auto operator<=>(const Key&) const = default;
+    struct Other {
+      Index middle, high, triangle;  // the two higher corners
+      auto operator<=>(const Other&) const = default;
     };
-    std::vector<Key> keys;
-    keys.reserve(kept_.size());
+    std::vector<Index> offset(positions_.size() + 1, 0);  // triangles in groups of their lowest corner
+    for (Index t : kept_) ++offset[*std::min_element(welded_[t].begin(), welded_[t].end()) + 1];
+    std::partial_sum(offset.begin(), offset.end(), offset.begin());
+    std::vector<Other> others(kept_.size());
+    std::vector<Index> next(offset.begin(), offset.end() - 1);
     for (Index t : kept_) {
       Triangle sorted = welded_[t];
       std::sort(sorted.begin(), sorted.end());
-      keys.push_back({sorted, t});
+      others[next[sorted[0]]++] = {sorted[1], sorted[2], t};
     }
-    std::sort(keys.begin(), keys.end());
     std::vector<bool> duplicate(input_.triangles.size(), false);
-    for (std::size_t i = 1; i < keys.size(); ++i)
-      duplicate[keys[i].triangle] = keys[i].corners == keys[i - 1].corners;
+    for (std::size_t low = 0; low + 1 < offset.size(); ++low) {
+      const std::span<Other> group(others.begin() + offset[low], others.begin() + offset[low + 1]);
+      std::sort(group.begin(), group.end());
+      for (std::size_t i = 1; i < group.size(); ++i)
+        duplicate[group[i].triangle] =
+            group[i].middle == group[i - 1].middle && group[i].high == group[i - 1].high;
+    }
     counts_.duplicate = std::erase_if(kept_, [&](Index t) { return duplicate[t]; });
   }
 

@@ -1,6 +1,10 @@
 #include "repair/orient.hpp"
 
 #include <cmath>
+#include <numeric>
+#include <span>
+
+#include <bodice/geometry/disjoint_sets.hpp>
 
 namespace bodice::inline v0_1::geometry {
 namespace {
@@ -40,7 +44,7 @@ std::vector<Index> grow_patch(const TriMesh& mesh, const MeshEdges& edges, Index
 }
 
 /// Whether the patch, with the chosen flips, faces inward.
-bool inward(const TriMesh& mesh, const std::vector<Index>& patch, const std::vector<bool>& flip) {
+bool inward(const TriMesh& mesh, std::span<const Index> patch, const std::vector<bool>& flip) {
   Vec3 centroid = Vec3::Zero();
   double twice_area = 0.0;
   const Vec3 near = mesh.corner(patch.front(), 0);
@@ -62,9 +66,52 @@ bool inward(const TriMesh& mesh, const std::vector<Index>& patch, const std::vec
   return 2 * flipped > patch.size();
 }
 
+/// Whether neighbors agree as they are.
+bool agree_all(const TriMesh& mesh, const MeshEdges& edges) {
+  for (Index e = 0; e < edges.ends.size(); ++e) {
+    if (!edges.joins_two(e)) continue;
+    const auto [a, b] = edges.triangles[e];
+    if (!consistent(mesh.triangles[a], mesh.triangles[b], edges.ends[e])) return false;
+  }
+  return true;
+}
+
+/// The patches of a mesh, each with its triangles ascending.
+struct Patches {
+  std::vector<Index> offset, triangle;
+};
+
+Patches find_patches(const TriMesh& mesh, const MeshEdges& edges) {
+  const auto count = static_cast<Index>(mesh.triangles.size());
+  DisjointSets sets(count);
+  for (Index e = 0; e < edges.ends.size(); ++e)
+    if (edges.joins_two(e)) sets.unite(edges.triangles[e][0], edges.triangles[e][1]);
+  Patches patches{std::vector<Index>(count + 1, 0), std::vector<Index>(count)};
+  for (Index t = 0; t < count; ++t) ++patches.offset[sets.find(t) + 1];
+  std::partial_sum(patches.offset.begin(), patches.offset.end(), patches.offset.begin());
+  std::vector<Index> next(patches.offset.begin(), patches.offset.end() - 1);
+  for (Index t = 0; t < count; ++t) patches.triangle[next[sets.find(t)]++] = t;
+  return patches;
+}
+
+/// The orientation of a mesh where neighbors agree: patches are turned as wholes.
+Orientation turn_patches(const TriMesh& mesh, const MeshEdges& edges) {
+  Orientation result{std::vector<bool>(mesh.triangles.size(), false)};
+  const Patches patches = find_patches(mesh, edges);
+  for (std::size_t i = 0; i + 1 < patches.offset.size(); ++i) {
+    const std::span<const Index> patch(patches.triangle.data() + patches.offset[i],
+                                       patches.offset[i + 1] - patches.offset[i]);
+    if (patch.empty() || !inward(mesh, patch, result.flip)) continue;
+    for (const Index t : patch) result.flip[t] = true;
+    result.flipped += patch.size();
+  }
+  return result;
+}
+
 }  // namespace
 
 Orientation choose_orientation(const TriMesh& mesh, const MeshEdges& edges) {
+  if (agree_all(mesh, edges)) return turn_patches(mesh, edges);
   const std::size_t count = mesh.triangles.size();
   Orientation result{std::vector<bool>(count, false)};
   std::vector<bool> seen(count, false);

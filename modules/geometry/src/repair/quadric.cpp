@@ -11,26 +11,43 @@ constexpr double kLeastPivot = 1e-6;
 }  // namespace
 
 Quadric::Quadric(const Vec3& origin, const Vec3& normal, double scale)
-    : origin_(origin), normal_(normal), u_(normal.unitOrthogonal()), v_(normal.cross(u_)), scale_(scale) {}
+    : origin_(origin),
+      normal_(normal / scale),
+      u_(normal.unitOrthogonal() / scale),
+      v_(normal.cross(u_)),
+      scale_(scale) {}
 
 void Quadric::add(const Vec3& p) {
-  const Vec3 d = (p - origin_) / scale_;
+  const Vec3 d = p - origin_;
   const double u = d.dot(u_), v = d.dot(v_), h = d.dot(normal_);
-  Vector terms;
-  terms << 1.0, u, v, u * u, u * v, v * v;
-  squares_.noalias() += terms * terms.transpose();
-  heights_ += h * terms;
-  squared_heights_ += h * h;
+  const double uu = u * u, uv = u * v, vv = v * v;
+  Moments& s = sum_;
+  s.u += u, s.v += v;
+  s.uu += uu, s.uv += uv, s.vv += vv;
+  s.uuu += u * uu, s.uuv += u * uv, s.uvv += u * vv, s.vvv += v * vv;
+  s.uuuu += uu * uu, s.uuuv += uu * uv, s.uuvv += uu * vv, s.uvvv += uv * vv, s.vvvv += vv * vv;
+  s.h += h, s.hu += h * u, s.hv += h * v;
+  s.huu += h * uu, s.huv += h * uv, s.hvv += h * vv, s.hh += h * h;
   ++count_;
 }
 
 std::optional<Quadric::Value> Quadric::value() const {
   if (count_ < kFewest) return std::nullopt;
-  const Eigen::LDLT<Matrix> factors(squares_);
+  using Vector = Eigen::Matrix<double, 6, 1>;
+  const Moments& s = sum_;
+  Eigen::Matrix<double, 6, 6> squares;
+  squares << count_, s.u, s.v, s.uu, s.uv, s.vv,   //
+      s.u, s.uu, s.uv, s.uuu, s.uuv, s.uvv,        //
+      s.v, s.uv, s.vv, s.uuv, s.uvv, s.vvv,        //
+      s.uu, s.uuu, s.uuv, s.uuuu, s.uuuv, s.uuvv,  //
+      s.uv, s.uuv, s.uvv, s.uuuv, s.uuvv, s.uvvv,  //
+      s.vv, s.uvv, s.vvv, s.uuvv, s.uvvv, s.vvvv;
+  const Vector heights{{s.h, s.hu, s.hv, s.huu, s.huv, s.hvv}};
+  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factors(squares);
   if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > kLeastPivot * count_))
     return std::nullopt;
-  const Vector solution = factors.solve(heights_);
-  const double rest = squared_heights_ - solution.dot(heights_);
+  const Vector solution = factors.solve(heights);
+  const double rest = s.hh - solution.dot(heights);
   return Value{.height = scale_ * solution[0],
                .variance = factors.solve(Vector(Vector::Unit(0)))[0],
                .residual = scale_ * scale_ * std::max(rest, 0.0) / (count_ - 6)};

@@ -29,14 +29,16 @@ class Quadric {
   static constexpr int kFewest = 9;
 
  private:
-  using Matrix = Eigen::Matrix<double, 6, 6>;
-  using Vector = Eigen::Matrix<double, 6, 1>;
+  /// Sums over the points of u^i v^j, and of the height times each term.
+  struct Moments {
+    double u = 0, v = 0, uu = 0, uv = 0, vv = 0, uuu = 0, uuv = 0, uvv = 0, vvv = 0;
+    double uuuu = 0, uuuv = 0, uuvv = 0, uvvv = 0, vvvv = 0;
+    double h = 0, hu = 0, hv = 0, huu = 0, huv = 0, hvv = 0, hh = 0;
+  };
 
-  Vec3 origin_, normal_, u_, v_;
+  Vec3 origin_, normal_, u_, v_;  // the axes divided by the scale
   double scale_;
-  Matrix squares_ = Matrix::Zero();
-  Vector heights_ = Vector::Zero();
-  double squared_heights_ = 0.0;
+  Moments sum_;
   int count_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include <bodice/engine/random.hpp>
 
@@ -23,6 +24,16 @@ double middle_half(std::vector<double>& values) {
   std::nth_element(values.begin(), low, values.end());
   std::nth_element(low, high, values.end());
   return *high - *low;
+}
+
+std::uint64_t hash_of(std::int64_t x, std::int64_t y, std::int64_t z) {
+  std::uint64_t hash = 1;
+  for (const std::int64_t number : {x, y, z}) hash = engine::mix64(hash ^ static_cast<std::uint64_t>(number));
+  return hash;
+}
+
+std::uint32_t mark_of(std::uint64_t hash) {
+  return static_cast<std::uint32_t>(hash >> 32u);
 }
 
 }  // namespace
@@ -46,7 +57,7 @@ Welder::Welder(double tolerance_m, std::size_t expected)
       cell_size_(tolerance_ > 0.0 ? kCellTolerances * tolerance_ : 0.0),
       head_(std::bit_ceil(std::max<std::size_t>(expected, 16)), kNoIndex) {
   points_.reserve(expected);
-  next_.reserve(expected);
+  link_.reserve(expected);
 }
 
 Welder::Cell Welder::cell_of(const Vec3& p) const {
@@ -58,19 +69,20 @@ Welder::Cell Welder::cell_of(const Vec3& p) const {
   return {number(p[0]), number(p[1]), number(p[2])};
 }
 
-std::size_t Welder::bucket_of(const Cell& cell) const {
-  auto mix = [](std::uint64_t seed, std::int64_t value) {
-    return engine::mix64(seed ^ static_cast<std::uint64_t>(value));
-  };
-  return mix(mix(mix(1, cell.x), cell.y), cell.z) & (head_.size() - 1);
-}
-
 Index Welder::find_in(const Cell& cell, const Vec3& p) const {
+  const std::uint64_t hash = hash_of(cell.x, cell.y, cell.z);
   Index found = kNoIndex;
-  for (Index i = head_[bucket_of(cell)]; i != kNoIndex; i = next_[i])
-    if ((points_[i] - p).cwiseAbs().maxCoeff() <= tolerance_ && (points_[i] - p).stableNorm() <= tolerance_)
+  for (Index i = head_[hash & (head_.size() - 1)]; i != kNoIndex; i = link_[i].previous)
+    if (link_[i].mark == mark_of(hash) && (points_[i] - p).cwiseAbs().maxCoeff() <= tolerance_ &&
+        (points_[i] - p).stableNorm() <= tolerance_)
       found = i;  // a bucket runs from the latest to the earliest point: the earliest is the last one found
   return found;
+}
+
+Welder::Link Welder::link(Index point) {
+  const Cell cell = cell_of(points_[point]);
+  const std::uint64_t hash = hash_of(cell.x, cell.y, cell.z);
+  return {std::exchange(head_[hash & (head_.size() - 1)], point), mark_of(hash)};
 }
 
 Index Welder::add(const Vec3& p) {
@@ -91,19 +103,13 @@ Index Welder::add(const Vec3& p) {
   if (points_.size() == head_.size()) grow();
   const auto id = static_cast<Index>(points_.size());
   points_.push_back(p);
-  Index& head = head_[bucket_of(cell_of(p))];
-  next_.push_back(head);
-  head = id;
+  link_.push_back(link(id));
   return id;
 }
 
 void Welder::grow() {
   head_.assign(2 * head_.size(), kNoIndex);
-  for (Index i = 0; i < points_.size(); ++i) {
-    Index& head = head_[bucket_of(cell_of(points_[i]))];
-    next_[i] = head;
-    head = i;
-  }
+  for (Index i = 0; i < points_.size(); ++i) link_[i] = link(i);
 }
 
 }  // namespace bodice::geometry

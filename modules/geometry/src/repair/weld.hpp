@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,16 +26,22 @@ class Welder {
   struct Cell {
     std::int64_t x, y, z;
   };
+  /// A point in the list of its bucket.
+  struct Link {
+    Index previous;      ///< the previous point of the same bucket
+    std::uint32_t mark;  ///< of its cell: points of other cells in the bucket need not be looked at
+  };
   Cell cell_of(const Vec3& p) const;
-  std::size_t bucket_of(const Cell& cell) const;
   Index find_in(const Cell& cell, const Vec3& p) const;
+  /// Puts a point at the head of its bucket.
+  Link link(Index point);
   void grow();
 
   double tolerance_;
   double cell_size_;
   std::vector<Vec3> points_;
   std::vector<Index> head_;  // a power of two of buckets: the latest point of each
-  std::vector<Index> next_;  // the previous point of the same bucket
+  std::vector<Link> link_;
 };
 
 }  // namespace bodice::geometry
