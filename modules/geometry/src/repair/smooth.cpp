@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 
 #include <bodice/engine/parallel.hpp>
@@ -23,20 +24,23 @@ constexpr double kAgree = 1.7;
 constexpr double kFollows = 1.1, kFollowsBy = 3.5;
 /// Rings over which normals are averaged.
 constexpr int kNormalRings = 2;
+constexpr std::size_t kNormalGrain = 4096;
 /// Blocks of vertices: each has memory for all vertices.
 constexpr std::size_t kBlocks = 32;
 
 /// Normals averaged over rings of neighbors.
-std::vector<Vec3> smooth_normals(const TriMesh& mesh, const Neighbors& neighbors) {
+std::vector<Vec3> smooth_normals(const engine::Context& context, const TriMesh& mesh,
+                                 const Neighbors& neighbors) {
   std::vector<Vec3> normals = vertex_normals(mesh), next(normals.size());
   for (int pass = 0; pass < kNormalRings; ++pass) {
-    for (std::size_t v = 0; v < normals.size(); ++v) {
-      Vec3 sum = normals[v];
-      for (const Index other : neighbors.of(v)) sum += normals[other];
-      next[v] = sum;
-    }
+    engine::parallel_for(context, normals.size(), kNormalGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        Vec3 sum = normals[v];
+        for (const Index other : neighbors.of(v)) sum += normals[other];
+        next[v] = sum.normalized();
+      }
+    });
     normals.swap(next);
-    for (Vec3& n : normals) n.normalize();
   }
   return normals;
 }
@@ -102,20 +106,29 @@ class Smoother {
 
 }  // namespace
 
-std::vector<Vec3> without_noise(const engine::Context& context, const TriMesh& mesh, double noise) {
+std::vector<Vec3> without_noise(const engine::Context& context, const TriMesh& mesh, double noise,
+                                std::span<const Index> vertices) {
   const double longest = bounding_box(mesh.positions).size().maxCoeff();
   const Neighbors neighbors(mesh);
-  const std::size_t grain = mesh.positions.size() / kBlocks + 1;
-  const std::vector<Vec3> normals = smooth_normals(mesh, neighbors);
+  const std::size_t grain = vertices.size() / kBlocks + 1;
+  const std::vector<Vec3> normals = smooth_normals(context, mesh, neighbors);
   const Smoother smoother(mesh, normals, noise, longest);
-  std::vector<Vec3> smooth = mesh.positions;
-  engine::parallel_for(context, normals.size(), grain, [&](std::size_t begin, std::size_t end) {
+  std::vector<Vec3> smooth(vertices.size());
+  engine::parallel_for(context, vertices.size(), grain, [&](std::size_t begin, std::size_t end) {
     Rings rings(neighbors);
-    for (std::size_t v = begin; v < end; ++v)
-      if (normals[v].squaredNorm() > 0.5)
-        smooth[v] += smoother.height(rings, static_cast<Index>(v)) * normals[v];
+    for (std::size_t i = begin; i < end; ++i) {
+      const Index v = vertices[i];
+      smooth[i] = mesh.positions[v];
+      if (normals[v].squaredNorm() > 0.5) smooth[i] += smoother.height(rings, v) * normals[v];
+    }
   });
   return smooth;
+}
+
+std::vector<Vec3> without_noise(const engine::Context& context, const TriMesh& mesh, double noise) {
+  std::vector<Index> all(mesh.positions.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  return without_noise(context, mesh, noise, all);
 }
 
 }  // namespace bodice::geometry

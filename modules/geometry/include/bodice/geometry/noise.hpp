@@ -1,6 +1,7 @@
 // Noise of a scanned surface: how strong it is, and the surface without it.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <bodice/engine/context.hpp>
@@ -21,5 +22,9 @@ double noise_of(const engine::Context& context, const TriMesh& mesh);
 /// some ten microseconds a vertex, on all workers. Precondition: every index of a triangle is below #V.
 /// Throws Canceled.
 std::vector<Vec3> without_noise(const engine::Context& context, const TriMesh& mesh, double noise);
+
+/// The same for some vertices of the mesh, in their order.
+std::vector<Vec3> without_noise(const engine::Context& context, const TriMesh& mesh, double noise,
+                                std::span<const Index> vertices);
 
 }  // namespace bodice::geometry
