@@ -70,7 +70,8 @@ bool is_doubt(const bodice::engine::Warning& warning) {
                                                   "flipped-triangles",
                                                   "far-from-origin",
                                                   "skin-touches",
-                                                  "noise-smoothed"};
+                                                  "noise-smoothed",
+                                                  "skin-thinned"};
   // A rebuilt skin is in doubt where a good part of it is made up: only then the warning has a remedy.
   if (warning.code == "skin-rebuilt") return !warning.remedy.empty();
   return !kNoDoubts.contains(warning.code);

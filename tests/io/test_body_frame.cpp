@@ -136,3 +136,28 @@ TEST_CASE("the noise of a scan is smoothed and stated, or kept where that is wan
   CHECK(clean.noise_m == 0.0);
   CHECK_FALSE(clean.smoothed);
 }
+
+TEST_CASE("a skin of many vertices is thinned, with a warning and a map, unless all are to be kept") {
+  TriMesh fine = bodice_test::icosphere(0.37, 8);  // 655,362 vertices, .002 m apart
+  for (Vec3& p : fine.positions) p = {p.x(), 2.0 * p.y(), p.z()};
+  const TempFolder folder;
+  const auto file = folder.write("fine.ply", to_ply(fine, true));
+  const auto thinned = io::import_body(kContext, file),
+             all = io::import_body(kContext, file, {.keep_vertices = true});
+  REQUIRE(thinned.ok());
+  REQUIRE(all.ok());
+  CHECK(warned(*thinned, "skin-thinned"));
+  CHECK_FALSE(warned(*all, "skin-thinned"));
+  CHECK(all->skin.positions.size() == fine.positions.size());
+  CHECK(thinned->skin.positions.size() < 300'000);
+  CHECK(thinned->input_vertices == fine.positions.size());
+  REQUIRE(thinned->vertex_of_input.size() == fine.positions.size());
+  double farthest_m = 0.0;
+  for (std::size_t v = 0; v < fine.positions.size(); ++v) {
+    const Vec3 to = thinned->frame.to_file(thinned->skin.positions[thinned->vertex_of_input[v]]);
+    farthest_m = std::max(farthest_m, (to - fine.positions[v]).norm());
+  }
+  CHECK(farthest_m < 0.015);
+  CHECK(geometry::surface_area(thinned->skin) ==
+        doctest::Approx(geometry::surface_area(all->skin)).epsilon(1e-3));
+}

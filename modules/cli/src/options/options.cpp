@@ -175,6 +175,9 @@ void add_input_options(CLI::App& command, CommonOptions& o) {
   command.add_flag("--keep-noise", o.keep_noise, "do not smooth the noise of a scan")
       ->needs("BODY")
       ->group(group);
+  command.add_flag("--keep-vertices", o.keep_vertices, "do not thin a body of more than 300,000 vertices")
+      ->needs("BODY")
+      ->group(group);
   command.add_flag("--force", o.force, "go on with a warning where the shape contradicts a human body")
       ->needs("BODY")
       ->group(group);
@@ -249,6 +252,7 @@ engine::Result<tryon::SegmentOptions> segment_options(const CommonOptions& o) {
   if (!o.mesh.empty()) options.import.mesh = o.mesh;
   options.import.person = o.person;
   options.import.keep_noise = o.keep_noise;
+  options.import.keep_vertices = o.keep_vertices;
   if (o.shape == "any") options.import.shape = io::Shape::kAny;
   options.force = o.force;
   auto profile = proportions(o);

@@ -21,7 +21,7 @@ struct CommonOptions {
   std::string body;  ///< a file; empty: the built-in body
   std::string up = "auto", unit = "auto", mesh, profile = "ansur2", shape = "person";
   int person = 1;
-  bool force = false, keep_noise = false;
+  bool force = false, keep_noise = false, keep_vertices = false;
 
   std::string sex = "female", pose = "a";
   double height_m = 1.68;

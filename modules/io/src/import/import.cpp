@@ -10,6 +10,7 @@
 #include "import/body/body_frame.hpp"
 #include "import/body/choose_body.hpp"
 #include "import/body/close_skin.hpp"
+#include "import/body/thin_skin.hpp"
 #include "import/rig/build_rig.hpp"
 #include "import/scene/file_scene.hpp"
 #include "import/scene/joined_look.hpp"
@@ -46,11 +47,16 @@ void check_precision(const geometry::TriMesh& shape, bool kept_digits, ImportedM
                           "Move it near the origin before exporting, or export it as OBJ."});
 }
 
-/// The noise of a mesh, in its unit, which is taken out unless it is to be kept.
-engine::Result<double> remove_noise(const engine::Context& context, bool keep, geometry::TriMesh& mesh) {
+/// Smooths noise and thins what is too fine, as the options want it. Returns the noise, in the mesh's unit.
+engine::Result<double> refine_scan(const engine::Context& context, const ImportOptions& options,
+                                   geometry::RepairedMesh& scan, std::vector<engine::Warning>& warnings) {
   return engine::catch_canceled("The smoothing of noise", [&]() -> engine::Result<double> {
-    const double noise = geometry::noise_of(context, mesh);
-    if (noise > 0.0 && !keep) mesh.positions = geometry::without_noise(context, mesh, noise);
+    const double noise = geometry::noise_of(context, scan.mesh);
+    const bool noisy = noise > 0.0, smooths = noisy && !options.keep_noise;
+    if (is_overfine(scan.mesh) && !options.keep_vertices && noisy == smooths)
+      warnings.push_back(thin_skin(context, noise, scan));
+    else if (smooths)
+      scan.mesh.positions = geometry::without_noise(context, scan.mesh, noise);
     return noise;
   });
 }
@@ -98,15 +104,16 @@ engine::Result<ReadBody> read_body_now(const engine::Context& context, const std
   out.input_vertices = chosen->shape.positions.size();
   out.input_triangles = chosen->shape.triangles.size();
 
-  auto repaired = geometry::repair(context, chosen->shape);
+  auto repaired = chosen->repaired ? engine::Result<geometry::RepairedMesh>(std::move(*chosen->repaired))
+                                   : geometry::repair(context, chosen->shape);
   if (!repaired) return in_file(repaired.error(), file);
   // A skin with weights stays as it is: they are those of its vertices.
   double noise = 0.0;
   if (!scene->rig.has_bones) {
     if (!any) {
-      const auto removed = remove_noise(context, options.keep_noise, repaired->mesh);
-      if (!removed) return in_file(removed.error(), file);
-      noise = *removed;
+      const auto found = refine_scan(context, options, *repaired, out.warnings);
+      if (!found) return in_file(found.error(), file);
+      noise = *found;
     }
     out.smoothed = noise > 0.0 && !options.keep_noise;
     if (auto closed = close_skin(context, chosen->shape, *repaired)) {

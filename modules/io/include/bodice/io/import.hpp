@@ -40,6 +40,7 @@ struct ImportOptions {
   std::optional<std::string> mesh;   ///< name of the body's mesh; absent: chosen by shape
   int person = 1;                    ///< which body of a file with several people, from 1
   bool keep_noise = false;           ///< noise of a scan is measured, and not smoothed
+  bool keep_vertices = false;        ///< skins of more than 300,000 vertices are not thinned
 };
 
 /// A repaired mesh in meters, y up, and its relation to the file.

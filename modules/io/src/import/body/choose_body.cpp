@@ -242,8 +242,13 @@ engine::Result<ChosenBody> choose_body(const engine::Context& context, const Fil
   }
   auto joined = join(context, scene);
   if (!joined) return joined.error();
+  if (joined->repaired.report.components == 1 && scene.meshes.size() == 1 && person == 1) {
+    ChosenBody chosen = take_all(scene);
+    chosen.repaired = std::move(joined->repaired);
+    chosen.repaired->mesh = std::move(joined->mesh);
+    return chosen;
+  }
   const std::vector<Piece> pieces = split(*joined);
-  if (pieces.size() == 1 && scene.meshes.size() == 1 && person == 1) return take_all(scene);
 
   ChosenBody chosen;
   const auto body = pieces_of_person(context, scene, *joined, pieces, person, chosen);

@@ -7,6 +7,7 @@
 
 #include <bodice/engine/context.hpp>
 #include <bodice/engine/result.hpp>
+#include <bodice/geometry/mesh_repair.hpp>
 
 #include "import/scene/file_scene.hpp"
 
@@ -17,6 +18,7 @@ struct ChosenBody {
   FileWeights weights;      ///< of its vertices; empty where the file has no bones
   std::string name;         ///< name of the mesh that gave most of it
   std::vector<engine::Warning> warnings;
+  std::optional<geometry::RepairedMesh> repaired;  ///< the shape repaired, where the choice had to do that
 };
 
 /// All meshes of a file, or with `wanted` those of that name, as one thing. Fails with kNotFound.

@@ -42,7 +42,9 @@ constexpr double kLeastMeasured = 0.5;
 /// keep them lose up to .0006.
 constexpr double kMuchLost = 0.0015;
 
-double openness(const TriMesh& mesh) {
+double openness(const RepairedMesh& repaired) {
+  if (repaired.report.boundary_edges == 0) return 0.0;
+  const TriMesh& mesh = repaired.mesh;
   const geometry::MeshEdges edges = geometry::mesh_edges(mesh);
   double length = 0.0;
   for (Index e = 0; e < edges.ends.size(); ++e)
@@ -128,7 +130,7 @@ engine::Warning rebuilt_warning(std::size_t pieces, std::size_t open_edges, doub
 std::optional<ClosedSkin> close_skin(const engine::Context& context, const TriMesh& input,
                                      const RepairedMesh& repaired) {
   if (repaired.mesh.triangles.size() < kFewestTriangles) return std::nullopt;
-  if (openness(repaired.mesh) < kNearlyClosed) return std::nullopt;
+  if (openness(repaired) < kNearlyClosed) return std::nullopt;
   const TriMesh surface = outward(input, repaired);
   const Vec3 size = geometry::bounding_box(surface.positions).size();
   if (surface_area(surface) > kTooCompact * size.squaredNorm()) return std::nullopt;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include <bodice/geometry/mesh_edges.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 
 namespace bodice::inline v0_1::io {
@@ -12,29 +13,27 @@ namespace {
 
 using geometry::Index;
 using geometry::Vec3;
-using Edge = std::pair<Index, Index>;
-
-std::vector<Edge> edges_of(const geometry::TriMesh& mesh) {
-  std::vector<Edge> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (const geometry::Triangle& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k) edges.push_back(std::minmax(t[k], t[(k + 1) % 3]));
-  std::sort(edges.begin(), edges.end());
-  return edges;
-}
 
 void add_boundaries(const JoinedScene& joined, const geometry::Components& components,
                     std::vector<Piece>& pieces) {
-  const std::vector<Edge> edges = edges_of(joined.mesh);
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t end = i + 1;
-    while (end < edges.size() && edges[end] == edges[i]) ++end;
-    const auto [a, b] = edges[i];
-    if (end == i + 1)
-      pieces[components.of_vertex[a]].boundary_length +=
-          (joined.mesh.positions[a] - joined.mesh.positions[b]).norm();
-    i = end;
+  if (joined.repaired.report.boundary_edges == 0) return;
+  const geometry::MeshEdges edges = geometry::mesh_edges(joined.mesh);
+  for (std::size_t e = 0; e < edges.ends.size(); ++e) {
+    if (edges.triangle_count[e] != 1) continue;
+    const auto [a, b] = edges.ends[e];
+    pieces[components.of_vertex[a]].boundary_length +=
+        (joined.mesh.positions[a] - joined.mesh.positions[b]).norm();
   }
+}
+
+/// Undoes the orientation of a repair: pieces are judged as they are in the file.
+void wind_as_given(const FileScene& scene, JoinedScene& joined) {
+  if (joined.repaired.report.flipped_triangles == 0) return;
+  const std::vector<geometry::Triangle>& given = scene.meshes.front().shape.triangles;
+  for (std::size_t t = 0; t < given.size(); ++t)
+    if (const Index kept = joined.repaired.triangle_of_input[t]; kept != geometry::kNoIndex)
+      for (std::size_t k = 0; k < 3; ++k)
+        joined.mesh.triangles[kept][k] = joined.repaired.vertex_of_input[given[t][k]];
 }
 
 }  // namespace
@@ -52,11 +51,12 @@ std::size_t Piece::main_source() const {
 engine::Result<JoinedScene> join(const engine::Context& context, const FileScene& scene) {
   geometry::TriMesh all;
   std::vector<std::size_t> source;
+  const bool alone = scene.meshes.size() == 1;  // needs no copy
   for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
-    append(scene.meshes[m].shape, all);
-    source.resize(all.triangles.size(), m);
+    if (!alone) append(scene.meshes[m].shape, all);
+    source.resize(source.size() + scene.meshes[m].shape.triangles.size(), m);
   }
-  auto repaired = geometry::repair(context, all, {.orient = false});
+  auto repaired = geometry::repair(context, alone ? scene.meshes.front().shape : all, {.orient = alone});
   if (!repaired) return repaired.error();
   JoinedScene joined;
   joined.mesh = std::move(repaired->mesh);
@@ -70,6 +70,8 @@ engine::Result<JoinedScene> join(const engine::Context& context, const FileScene
     joined.vertex_of.emplace_back(next, end);
     next = end;
   }
+  joined.repaired = std::move(*repaired);
+  if (joined.repaired.report.components > 1) wind_as_given(scene, joined);
   return joined;
 }
 

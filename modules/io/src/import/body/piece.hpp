@@ -6,6 +6,7 @@
 
 #include <bodice/engine/context.hpp>
 #include <bodice/engine/result.hpp>
+#include <bodice/geometry/mesh_repair.hpp>
 
 #include "import/scene/file_scene.hpp"
 
@@ -16,6 +17,7 @@ struct JoinedScene {
   geometry::TriMesh mesh;
   std::vector<std::size_t> source;                      ///< #F: index into FileScene::meshes
   std::vector<std::vector<geometry::Index>> vertex_of;  ///< mesh of the file -> its vertex -> joined vertex
+  geometry::RepairedMesh repaired;                      ///< the rest of the repair; its mesh is the one above
 };
 
 struct Piece {

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <bodice/engine/context.hpp>
+#include <bodice/geometry/mesh_repair.hpp>
+
+namespace bodice::inline v0_1::io {
+
+/// Whether a skin has many more vertices than a fit needs.
+bool is_overfine(const geometry::TriMesh& skin);
+
+/// Takes vertices out of such a skin, with its noise, a standard deviation in its unit or 0, and returns the
+/// warning about it.
+engine::Warning thin_skin(const engine::Context& context, double noise, geometry::RepairedMesh& skin);
+
+}  // namespace bodice::io
