@@ -86,6 +86,13 @@ void sweep(World& world, Draw& draw, Bytes& bytes) {
                      draw.rarely() ? nullptr : fraction.data(), draw.rarely() ? &contacts : nullptr));
 }
 
+void cover(World& world, Draw& draw, Bytes& bytes) {
+  const bodice_particles skin = particles_of(world, draw, bytes);
+  std::size_t uncovered = 0;
+  check(bodice_collider_cover(world.collider, draw.rarely() ? nullptr : &skin, draw.real(),
+                              draw.rarely() ? nullptr : &uncovered));
+}
+
 void query_points(World& world, Draw& draw, Bytes& bytes) {
   const double point[3] = {static_cast<double>(draw.real()), 0.01 * bytes.next(),
                            static_cast<double>(draw.real())};
@@ -175,6 +182,10 @@ void load_proxy(World& world, Draw& draw, Bytes& bytes) {
   const double point[3] = {0.1, 0.2, 0.3};
   bodice_contact contact;
   check(bodice_query_point(collider, point, &contact));
+  bodice_particles skin = bodice_default_particles();
+  skin.count = 1;
+  skin.position = {const_cast<double*>(point), nullptr, nullptr, 0, BODICE_DOUBLE, 0};
+  check(bodice_collider_cover(collider, &skin, 0.0f, nullptr));
   bodice_collider_destroy(collider);
   bodice_proxy_destroy(made);
 }
@@ -193,7 +204,7 @@ FUZZ_TARGET(capi) {
   for (int i = 0; i < 64; ++i) floats[i] = 0.01f * static_cast<float>(bytes.next());
   if (draw.rarely()) floats[bytes.next()] = draw.real();
   for (int call = 0; call < 8; ++call) {
-    switch (bytes.next() % 9) {
+    switch (bytes.next() % 10) {
       case 0:
         query(*world, draw, bytes);
         break;
@@ -217,6 +228,9 @@ FUZZ_TARGET(capi) {
         break;
       case 7:
         load_proxy(*world, draw, bytes);
+        break;
+      case 8:
+        cover(*world, draw, bytes);
         break;
       default:
         bodice_query_options any;

@@ -248,6 +248,14 @@ class Collider : public detail::Handle<bodice_collider, bodice_collider_destroy>
     pose.stride = stride;
     return bodice_collider_pose(get(), &pose);
   }
+  /// Covers points of the posed skin, such as its vertices; returns how many were outside by more than
+  /// `tolerance_m`. See bodice_collider_cover().
+  Expected<std::size_t> cover(const Points& skin, float tolerance_m = 0.0007f) {
+    std::size_t uncovered = 0;
+    const bodice_status status = bodice_collider_cover(get(), &skin, tolerance_m, &uncovered);
+    if (status != BODICE_OK) return status;
+    return uncovered;
+  }
   bodice_status query(const bodice_particles& particles, Workspace& workspace,
                       const bodice_contacts& contacts,
                       const bodice_query_options& options = bodice_default_query_options()) const {

@@ -166,6 +166,16 @@ class Fits(unittest.TestCase):
         with self.assertRaisesRegex(bodice.Error, "was posed"):
             body.signed_distance(points, exact=True)
 
+    def test_a_cover_raises_relief_to_points_above_it(self):
+        body = bodice.Body(bodice.fit(self.vertices, self.faces, "relief").to_bytes())
+        at = body.contacts(self.vertices)
+        above = at.point + 0.002 * at.normal
+        self.assertGreater(body.cover(above), 0.9 * len(above))
+        self.assertLess(np.percentile(body.signed_distance(above), 95), 0.0008)
+        self.assertEqual(body.cover(at.point - 0.002 * at.normal), 0)
+        with self.assertRaisesRegex(bodice.Error, "tolerance"):
+            body.cover(above, -1.0)
+
     def test_a_saved_proxy_is_bound_without_another_fit(self):
         saved = bodice.Body(self.body.to_bytes())
         self.assertEqual(saved.joint_weights().shape, (len(saved), 0))

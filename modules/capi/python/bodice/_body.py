@@ -157,6 +157,14 @@ class Body:
         _c.check(move(self._collider, ctypes.byref(pose)))
         self._posed = True
 
+    def cover(self, skin: np.ndarray, tolerance: float = 0.0007) -> int:
+        """Raises relief where points (n, 3) of the posed skin, such as its vertices, are outside of the surface by more
+        than `tolerance`; the next pose takes it back. Returns how many were outside. Tier `relief` alone."""
+        particles, uncovered = _c.particles(_c.as_points(skin)), ctypes.c_size_t()
+        _c.check(_c.library.bodice_collider_cover(self._collider, ctypes.byref(particles), tolerance,
+                                                  ctypes.byref(uncovered)))
+        return uncovered.value
+
     def _mesh(self) -> Tuple[np.ndarray, np.ndarray]:
         raise Error("A proxy from a file has no mesh. Use bodice.Exact(vertices, faces), or a body of bodice.fit().")
 

@@ -86,6 +86,7 @@ def _declare() -> None:
         "bodice_collider_create": [c_void_p, c_void_p, c_void_p],
         "bodice_collider_pose": [c_void_p, c_void_p],
         "bodice_collider_move": [c_void_p, c_void_p],
+        "bodice_collider_cover": [c_void_p, c_void_p, c_float, c_void_p],
         "bodice_workspace_create": [c_void_p, c_void_p],
         "bodice_query": [c_void_p] * 5,
         "bodice_resolve": [c_void_p] * 5,

@@ -18,4 +18,5 @@ struct bodice_collider {
   std::optional<bodice::binding::Poser> poser;            ///< absent if the proxy is not bound
   std::vector<bodice::proxy::JointMatrix> matrices;       ///< room for the pose that a call reads
   std::vector<bodice::geometry::Ellipsoid> moved_shapes;  ///< room for the ellipsoids that a call gives
+  std::vector<bodice::geometry::Vec3> skin;               ///< room for the points that a call gives
 };
