@@ -1,5 +1,5 @@
-// Patches, boxes and crumbs at random, as scans leave them: repaired, rebuilt as a closed surface, and read
-// as a person's and as a thing's file.
+// Patches, boxes and crumbs at random, as scans leave them: repaired, rebuilt as a closed surface, thinned,
+// and read as a person's and as a thing's file.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -9,6 +9,7 @@
 #include <bodice/geometry/mesh_edges.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 #include <bodice/geometry/rebuild.hpp>
+#include <bodice/geometry/thin.hpp>
 #include <bodice/io/import.hpp>
 
 #include "harness.hpp"
@@ -122,6 +123,21 @@ void check_rebuilt(const TriMesh& surface) {
   FUZZ_CHECK(geometry::rebuild({}, surface, cell).mesh.positions == rebuilt.mesh.positions);
 }
 
+/// A thinned surface has the rims, the non-manifold edges and the topology of what it was made from.
+void check_thinned(const TriMesh& surface, double edge) {
+  const geometry::ThinnedSurface thinned = geometry::thin({}, surface, {.edge_m = edge, .tolerance_m = edge});
+  check_indices(thinned.mesh);
+  FUZZ_CHECK(thinned.kept.size() == thinned.mesh.positions.size());
+  for (const geometry::Index v : thinned.vertex_of_input) FUZZ_CHECK(v < thinned.kept.size());
+  const geometry::MeshEdges before = geometry::mesh_edges(surface),
+                            after = geometry::mesh_edges(thinned.mesh);
+  FUZZ_CHECK(before.boundary == after.boundary);
+  FUZZ_CHECK(before.non_manifold == after.non_manifold);
+  FUZZ_CHECK(geometry::euler_characteristic(surface, before) ==
+             geometry::euler_characteristic(thinned.mesh, after));
+  check_indices(geometry::thin_noisy({}, surface, edge, {.edge_m = edge}).mesh);
+}
+
 std::vector<std::uint8_t> as_stl(const TriMesh& mesh) {
   std::vector<std::uint8_t> bytes(80 + 4 + 50 * mesh.triangles.size());
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
@@ -138,13 +154,16 @@ std::vector<std::uint8_t> as_stl(const TriMesh& mesh) {
 
 FUZZ_TARGET(repair) {
   fuzz::Bytes in(data, size);
-  const bool is_read = in.next() == kRead;
+  const unsigned kind = in.next();
+  const bool is_read = kind == kRead;
   const TriMesh mesh = mesh_of(in);
   const auto repaired = geometry::repair({}, mesh);
   fuzz::check_reported(repaired);
   if (!repaired.ok()) return 0;
   check_indices(repaired->mesh);
   check_rebuilt(repaired->mesh);
+  check_thinned(repaired->mesh,
+                kind / 512.0 * geometry::bounding_box(repaired->mesh.positions).size().maxCoeff());
   if (!is_read) return 0;
   const fuzz::TemporaryFile file(".stl", as_stl(mesh));
   for (const io::Shape shape : {io::Shape::kPerson, io::Shape::kAny}) {

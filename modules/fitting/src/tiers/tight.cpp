@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <numeric>
-#include <ranges>
 
 #include <bodice/engine/clock.hpp>
 
@@ -98,9 +97,9 @@ class TightRun {
       descent_.split_and_merge = false;
       idle = descend_on(samples, kFineMotion, kFineIterations, state);
     }
-    for (const std::size_t k : std::views::reverse(idle))
+    for (auto k = idle.rbegin(); k != idle.rend(); ++k)  // clang 14 does not take libstdc++'s views
       if (draft_.data.ellipsoids.size() > 1)
-        draft_.data.ellipsoids.erase(draft_.data.ellipsoids.begin() + static_cast<std::ptrdiff_t>(k));
+        draft_.data.ellipsoids.erase(draft_.data.ellipsoids.begin() + static_cast<std::ptrdiff_t>(*k));
   }
 
  private:

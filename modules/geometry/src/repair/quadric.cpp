@@ -31,26 +31,52 @@ void Quadric::add(const Vec3& p) {
   ++count_;
 }
 
-std::optional<Quadric::Value> Quadric::value() const {
-  if (count_ < kFewest) return std::nullopt;
-  using Vector = Eigen::Matrix<double, 6, 1>;
+Quadric::Matrix Quadric::squares() const {
   const Moments& s = sum_;
-  Eigen::Matrix<double, 6, 6> squares;
+  Matrix squares;
   squares << count_, s.u, s.v, s.uu, s.uv, s.vv,   //
       s.u, s.uu, s.uv, s.uuu, s.uuv, s.uvv,        //
       s.v, s.uv, s.vv, s.uuv, s.uvv, s.vvv,        //
       s.uu, s.uuu, s.uuv, s.uuuu, s.uuuv, s.uuvv,  //
       s.uv, s.uuv, s.uvv, s.uuuv, s.uuvv, s.uvvv,  //
       s.vv, s.uvv, s.vvv, s.uuvv, s.uvvv, s.vvvv;
-  const Vector heights{{s.h, s.hu, s.hv, s.huu, s.huv, s.hvv}};
-  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factors(squares);
+  return squares;
+}
+
+Quadric::Vector Quadric::heights() const {
+  return Vector{{sum_.h, sum_.hu, sum_.hv, sum_.huu, sum_.huv, sum_.hvv}};
+}
+
+std::optional<Quadric::Value> Quadric::value() const {
+  if (count_ < kFewest) return std::nullopt;
+  const Eigen::LDLT<Matrix> factors(squares());
   if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > kLeastPivot * count_))
     return std::nullopt;
-  const Vector solution = factors.solve(heights);
-  const double rest = s.hh - solution.dot(heights);
+  const Vector solution = factors.solve(heights());
+  const double rest = sum_.hh - solution.dot(heights());
   return Value{.height = scale_ * solution[0],
                .variance = factors.solve(Vector(Vector::Unit(0)))[0],
                .residual = scale_ * scale_ * std::max(rest, 0.0) / (count_ - 6)};
+}
+
+QuadricPatch Quadric::patch() const {
+  QuadricPatch patch;
+  const Eigen::LDLT<Matrix> factors(squares());
+  patch.origin_ = origin_;
+  patch.normal_ = scale_ * normal_;
+  patch.u_ = u_;
+  patch.v_ = v_;
+  patch.heights_ = scale_ * factors.solve(heights());
+  patch.covariance_ = factors.solve(Matrix::Identity());
+  return patch;
+}
+
+QuadricPatch::Offset QuadricPatch::offset(const Vec3& p) const {
+  const Vec3 d = p - origin_;
+  const double u = d.dot(u_), v = d.dot(v_);
+  Eigen::Matrix<double, 6, 1> terms;
+  terms << 1.0, u, v, u * u, u * v, v * v;
+  return {heights_.dot(terms) - d.dot(normal_), terms.dot(covariance_ * terms)};
 }
 
 }  // namespace bodice::geometry

@@ -9,6 +9,24 @@
 
 namespace bodice::inline v0_1::geometry {
 
+/// A quadric as it was fitted, with its uncertainty.
+class QuadricPatch {
+ public:
+  /// How far a point has to move along the patch's normal to lie on it, and the variance of that where points
+  /// have a variance of 1.
+  struct Offset {
+    double distance, variance;
+  };
+  Offset offset(const Vec3& p) const;
+  const Vec3& normal() const { return normal_; }
+
+ private:
+  friend class Quadric;
+  Vec3 origin_, normal_, u_, v_;  // u and v are divided by the scale
+  Eigen::Matrix<double, 6, 1> heights_;
+  Eigen::Matrix<double, 6, 6> covariance_;
+};
+
 /// Least squares of a height over a plane by 1, u, v, u^2, u v and v^2; points are added one by one.
 class Quadric {
  public:
@@ -26,6 +44,9 @@ class Quadric {
   /// Nothing for fewer points than kFewest, and where they lie on a conic.
   std::optional<Value> value() const;
 
+  /// The quadric itself. Precondition: value() gives something.
+  QuadricPatch patch() const;
+
   static constexpr int kFewest = 9;
 
  private:
@@ -35,6 +56,11 @@ class Quadric {
     double uuuu = 0, uuuv = 0, uuvv = 0, uvvv = 0, vvvv = 0;
     double h = 0, hu = 0, hv = 0, huu = 0, huv = 0, hvv = 0, hh = 0;
   };
+
+  using Matrix = Eigen::Matrix<double, 6, 6>;
+  using Vector = Eigen::Matrix<double, 6, 1>;
+  Matrix squares() const;
+  Vector heights() const;
 
   Vec3 origin_, normal_, u_, v_;  // the axes divided by the scale
   double scale_;

@@ -1,7 +1,11 @@
+// Based on: Vladimir Katkovnik. A New Method for Varying Adaptive Bandwidth Selection. 1999. (ranges that
+// meet) Based on: Alessandro Foi, Vladimir Katkovnik, Karen Egiazarian. Pointwise Shape-Adaptive DCT for
+// High-Quality Denoising and Deblocking of Grayscale and Color Images. 2007. (overlapping estimates, weighed
+// by variance and size)
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <optional>
 #include <span>
 
 #include <bodice/engine/parallel.hpp>
@@ -21,7 +25,9 @@ constexpr double kCertain = 0.00012;
 constexpr double kAgree = 1.7;
 /// A quadric follows its points where these deviate by less than this, in variances of the noise, and by less
 /// than so many standard deviations of that estimate.
-constexpr double kFollows = 1.1, kFollowsBy = 3.5;
+constexpr double kFollows = 1.1, kFollowsBy = 2.0;
+/// Quadrics with normals farther off a vertex' normal than this cosine do not count for it.
+constexpr double kAlong = 0.7;
 /// Rings over which normals are averaged.
 constexpr int kNormalRings = 2;
 constexpr std::size_t kNormalGrain = 4096;
@@ -56,29 +62,40 @@ struct HeightRange {
   }
 };
 
-/// Finds where vertices lie without noise.
+/// The widest quadric around a vertex that its points follow.
+struct Widest {
+  Quadric quadric;
+  double height;    ///< how far the vertex moves along its normal
+  double variance;  ///< of the height where points have a variance of 1
+  int rings;
+};
+
+/// Finds what vertices lie on without noise.
 class Smoother {
  public:
-  Smoother(const TriMesh& noisy, std::span<const Vec3> normals, double noise, double longest)
-      : noisy_(noisy), normals_(normals), noise_(noise), longest_(longest) {}
+  Smoother(const TriMesh& noisy, std::span<const Vec3> normals, double noise)
+      : noisy_(noisy),
+        normals_(normals),
+        noise_(noise),
+        longest_(bounding_box(noisy.positions).size().maxCoeff()) {}
 
-  /// How far a vertex moves along its normal.
-  double height(Rings& rings, Index vertex) const {
+  std::optional<Widest> widest(Rings& rings, Index vertex) const {
+    std::optional<Widest> best;
+    if (!(normals_[vertex].squaredNorm() > 0.5)) return best;
     const Vec3& origin = noisy_.positions[vertex];
     const double farthest = std::max(kFarthest * longest_, 4.0 * noise_);
     Quadric quadric(origin, normals_[vertex], farthest);
     quadric.add(origin);
     HeightRange range;
-    double best = 0.0;
     rings.begin(vertex);
-    for (;;) {
+    for (int count = 1;; ++count) {
       const auto ring = rings.grow();
       if (ring.empty() || !add(ring, origin, farthest, quadric)) return best;
       const auto fit = quadric.value();
       if (!fit) continue;
       const double deviation = noise_ * std::sqrt(fit->variance);
       if (!follows(*fit, quadric.count()) || !range.meet(fit->height, deviation)) return best;
-      best = fit->height;
+      best = {quadric, fit->height, fit->variance, count};
       if (deviation < kCertain * longest_) return best;
     }
   }
@@ -104,31 +121,103 @@ class Smoother {
   double noise_, longest_;
 };
 
+/// What was found around a vertex; without a quadric, that it lies at height 0 as surely as it was measured.
+struct Patch {
+  QuadricPatch surface;
+  double height = 0.0, deviation = 1.0;  ///< the deviation where points have one of 1
+  int rings = 0;                         ///< 0: no quadric
+};
+
+/// Finds where vertices lie by all quadrics that go through them.
+class Consensus {
+ public:
+  Consensus(const TriMesh& noisy, std::span<const Vec3> normals, std::span<const Patch> patches, double noise)
+      : noisy_(noisy), normals_(normals), patches_(patches), noise_(noise) {}
+
+  /// How far a vertex moves along its normal: the mean of what the quadrics give, weighed by their variances
+  /// and the number of their points.
+  double height(Rings& rings, Index vertex) const {
+    double sum = 0.0, weights = 0.0;
+    rings.begin(vertex);
+    std::span<const Index> ring(&vertex, 1);
+    for (int distance = 0; !ring.empty(); ring = rings.grow(), ++distance) {
+      bool reached = distance == 0;
+      for (const Index v : ring) {
+        if (patches_[v].rings == 0 || patches_[v].rings < distance) continue;
+        reached = true;
+        const auto [height, weight] = opinion(patches_[v], vertex);
+        sum += weight * height;
+        weights += weight;
+      }
+      if (!reached) break;
+    }
+    return weights > 0.0 ? sum / weights : 0.0;
+  }
+
+ private:
+  struct Opinion {
+    double height, weight;
+  };
+
+  /// What a patch gives for a vertex; no weight where it does not agree with the vertex' own one.
+  Opinion opinion(const Patch& patch, Index vertex) const {
+    const Patch& own = patches_[vertex];
+    const double along = patch.surface.normal().dot(normals_[vertex]);
+    if (along < kAlong) return {0.0, 0.0};
+    const auto [offset, variance] = patch.surface.offset(noisy_.positions[vertex]);
+    const double most = kAgree * noise_ * (std::sqrt(variance) + own.deviation);
+    if (std::abs(offset - own.height) > most) return {0.0, 0.0};
+    return {along * offset, 1.0 / (variance * patch.rings * patch.rings)};
+  }
+
+  const TriMesh& noisy_;
+  std::span<const Vec3> normals_;
+  std::span<const Patch> patches_;
+  double noise_;
+};
+
+/// Calls visit(i, rings) for numbers below `count`, on all workers.
+template <class Visit>
+void for_each_in_blocks(const engine::Context& context, std::size_t count, const Neighbors& neighbors,
+                        const Visit& visit) {
+  engine::parallel_for(context, count, count / kBlocks + 1, [&](std::size_t begin, std::size_t end) {
+    Rings rings(neighbors);
+    for (std::size_t i = begin; i < end; ++i) visit(i, rings);
+  });
+}
+
 }  // namespace
 
 std::vector<Vec3> without_noise(const engine::Context& context, const TriMesh& mesh, double noise,
                                 std::span<const Index> vertices) {
-  const double longest = bounding_box(mesh.positions).size().maxCoeff();
   const Neighbors neighbors(mesh);
-  const std::size_t grain = vertices.size() / kBlocks + 1;
   const std::vector<Vec3> normals = smooth_normals(context, mesh, neighbors);
-  const Smoother smoother(mesh, normals, noise, longest);
+  const Smoother smoother(mesh, normals, noise);
   std::vector<Vec3> smooth(vertices.size());
-  engine::parallel_for(context, vertices.size(), grain, [&](std::size_t begin, std::size_t end) {
-    Rings rings(neighbors);
-    for (std::size_t i = begin; i < end; ++i) {
-      const Index v = vertices[i];
-      smooth[i] = mesh.positions[v];
-      if (normals[v].squaredNorm() > 0.5) smooth[i] += smoother.height(rings, v) * normals[v];
-    }
+  for_each_in_blocks(context, vertices.size(), neighbors, [&](std::size_t i, Rings& rings) {
+    const auto found = smoother.widest(rings, vertices[i]);
+    smooth[i] = mesh.positions[vertices[i]];
+    if (found) smooth[i] += found->height * normals[vertices[i]];
   });
   return smooth;
 }
 
 std::vector<Vec3> without_noise(const engine::Context& context, const TriMesh& mesh, double noise) {
-  std::vector<Index> all(mesh.positions.size());
-  std::iota(all.begin(), all.end(), Index{0});
-  return without_noise(context, mesh, noise, all);
+  const Neighbors neighbors(mesh);
+  const std::vector<Vec3> normals = smooth_normals(context, mesh, neighbors);
+  const Smoother smoother(mesh, normals, noise);
+  std::vector<Patch> patches(mesh.positions.size());
+  for_each_in_blocks(context, patches.size(), neighbors, [&](std::size_t v, Rings& rings) {
+    if (const auto found = smoother.widest(rings, static_cast<Index>(v)))
+      patches[v] = {found->quadric.patch(), found->height, std::sqrt(found->variance), found->rings};
+  });
+  const Consensus consensus(mesh, normals, patches, noise);
+  std::vector<Vec3> smooth = mesh.positions;
+  for_each_in_blocks(context, smooth.size(), neighbors, [&](std::size_t v, Rings& rings) {
+    if (normals[v].squaredNorm() > 0.5)
+      smooth[v] += consensus.height(rings, static_cast<Index>(v)) * normals[v];
+  });
+  return smooth;
 }
 
 }  // namespace bodice::geometry

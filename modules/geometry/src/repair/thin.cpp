@@ -13,8 +13,9 @@
 namespace bodice::inline v0_1::geometry {
 namespace {
 
-/// Slabs across the longest side, with about as many vertices each. Between them the surface stays as it is.
-constexpr std::size_t kSlabs = 32;
+/// Slabs across the longest side, with about as many vertices each, and how many these have at least. Between
+/// slabs the surface stays as it is.
+constexpr std::size_t kMostSlabs = 32, kVerticesOfSlab = 4096;
 /// Bins of the longest side, of which slabs are made.
 constexpr std::size_t kSlabBins = 4096;
 constexpr std::size_t kGrainOfAverages = 4096;
@@ -23,6 +24,10 @@ constexpr std::array kShifts = {0.0, 0.5};
 /// Noisy surfaces are judged after so many averages over neighbors, which leave this share of the noise.
 constexpr int kAverages = 3;
 constexpr double kNoiseLeft = 0.3;
+
+std::size_t slab_count(std::size_t vertices) {
+  return std::min(kMostSlabs, 1 + vertices / kVerticesOfSlab);
+}
 
 /// The slab of each vertex.
 std::vector<std::uint8_t> slabs(const std::vector<Vec3>& positions, double shift) {
@@ -37,7 +42,8 @@ std::vector<std::uint8_t> slabs(const std::vector<Vec3>& positions, double shift
   std::vector<std::size_t> below(kSlabBins + 1, 0);
   for (const Vec3& p : positions) ++below[bin_of(p) + 1];
   for (std::size_t bin = 0; bin < kSlabBins; ++bin) below[bin + 1] += below[bin];
-  const double slabs_per_vertex = static_cast<double>(kSlabs) / static_cast<double>(positions.size());
+  const double slabs_per_vertex =
+      static_cast<double>(slab_count(positions.size())) / static_cast<double>(positions.size());
   std::vector<std::uint8_t> slab(positions.size());
   for (std::size_t v = 0; v < positions.size(); ++v)
     slab[v] = static_cast<std::uint8_t>(static_cast<double>(below[bin_of(positions[v])]) * slabs_per_vertex +
@@ -47,7 +53,7 @@ std::vector<std::uint8_t> slabs(const std::vector<Vec3>& positions, double shift
 
 /// The vertices of each slab, ascending.
 std::vector<std::vector<Index>> vertices_of(const std::vector<std::uint8_t>& slab, const Merging& merging) {
-  std::vector<std::vector<Index>> vertices(kSlabs + 1);
+  std::vector<std::vector<Index>> vertices(slab_count(slab.size()) + 1);
   for (Index v = 0; v < slab.size(); ++v)
     if (!merging.is_merged(v)) vertices[slab[v]].push_back(v);
   return vertices;

@@ -16,14 +16,14 @@ namespace bodice::inline v0_1::geometry {
 /// Cost: some milliseconds and O(#F); on noisy surfaces microseconds a vertex. Throws Canceled.
 double noise_of(const engine::Context& context, const TriMesh& mesh);
 
-/// The positions (#V) with noise of a standard deviation removed. Each vertex moves along its normal onto a
-/// quadric fitted to its rings of neighbors: as many rings as agree with the fewer ones within the noise, the
-/// rule of Goldenshluger and Nemirovski (1997). Flat skin is averaged widely, fingers and ears hardly. Cost:
-/// some ten microseconds a vertex, on all workers. Precondition: every index of a triangle is below #V.
-/// Throws Canceled.
+/// The positions (#V) with noise of a standard deviation removed. Around each vertex a quadric is fitted to
+/// as many rings of neighbors as agree with the fewer ones within the noise, the rule of Goldenshluger and
+/// Nemirovski (1997); the vertex moves along its normal by all quadrics that go through it, weighed by their
+/// variances and sizes. Flat skin is averaged widely, fingers and ears hardly. Cost: some twenty microseconds
+/// a vertex, on all workers. Precondition: every index of a triangle is below #V. Throws Canceled.
 std::vector<Vec3> without_noise(const engine::Context& context, const TriMesh& mesh, double noise);
 
-/// The same for some vertices of the mesh, in their order.
+/// The same for some vertices of the mesh, in their order, each by its own quadric alone.
 std::vector<Vec3> without_noise(const engine::Context& context, const TriMesh& mesh, double noise,
                                 std::span<const Index> vertices);
 
