@@ -34,12 +34,16 @@ constexpr double kHidden = 0.01;
 
 /// Looks at a copy, each with the webs cut that the one before showed.
 constexpr int kPasses = 3;
+/// How far a landmark may lie below the fold up to which limbs were parted; of the stature.
+constexpr double kBelowFold = 0.025;
 /// Confidence of a landmark that a web hides: below that of one that is named in a warning.
 constexpr double kInDoubt = 0.3;
 
 /// A body with welded limbs, and how it is analyzed.
 struct WeldedBody {
   const engine::Context& context;
+  const TriMesh& mesh;
+  const MeshDistance& distance;
   SampledSkin& skin;
   const Options& options;
   Analyze analyze;
@@ -49,30 +53,40 @@ bool shows_weld(const engine::Warning& w) {
   return w.code == "limbs-fused" || w.code == "hand-fused-to-leg" || w.code == "legs-fused";
 }
 
+bool shows_welds(const Anatomy& found) {
+  return std::ranges::any_of(found.warnings, shows_weld);
+}
+
 bool is_welded(const engine::Result<Anatomy>& found) {
-  return !found || std::any_of(found->warnings.begin(), found->warnings.end(), shows_weld);
+  return !found || shows_welds(*found);
+}
+
+/// Whether paths along the skin are cut short. A handle alone, of a wall with a gap, may not do that.
+bool limbs_meet(const Anatomy& found) {
+  return std::any_of(found.warnings.begin(), found.warnings.end(),
+                     [](const engine::Warning& w) { return shows_weld(w) && w.code != "limbs-fused"; });
 }
 
 int doubts(const Anatomy& anatomy) {
   return static_cast<int>(
       std::count_if(anatomy.warnings.begin(), anatomy.warnings.end(), [](const engine::Warning& w) {
         return w.code.ends_with("-uncertain") || w.code.ends_with("-disagrees") ||
-               w.code.ends_with("-differ") || w.code == "unusual-body";
+               w.code.ends_with("-differ") || w.code == "unusual-body" || w.code == "limbs-fused";
       }));
 }
 
-struct Fold {
+struct NamedFold {
   LandmarkId id;
   const char* name;
 };
-constexpr std::array<Fold, 3> kFolds = {{{LandmarkId::kArmpitL, "the left armpit"},
-                                         {LandmarkId::kArmpitR, "the right armpit"},
-                                         {LandmarkId::kPerineum, "the crotch"}}};
+constexpr std::array<NamedFold, 3> kFolds = {{{LandmarkId::kArmpitL, "the left armpit"},
+                                              {LandmarkId::kArmpitR, "the right armpit"},
+                                              {LandmarkId::kPerineum, "the crotch"}}};
 
 /// The folds that a thin copy shows, joined to a clause; empty if there are none.
 std::string folds(const Anatomy& as_is, const Anatomy& apart) {
   std::string text;
-  for (const Fold& fold : kFolds) {
+  for (const NamedFold& fold : kFolds) {
     const auto at = static_cast<std::size_t>(fold.id);
     const Vec3 offset = apart.landmarks[at].position - as_is.landmarks[at].position;
     if (offset.dot(apart.up) < kHidden * apart.stature_m) continue;
@@ -81,14 +95,15 @@ std::string folds(const Anatomy& as_is, const Anatomy& apart) {
   return text;
 }
 
-void warn(const std::string& where, const ThinCopy& thin, Anatomy& apart) {
+/// `sure`: the cut is reported, and there is nothing to check.
+void warn(const std::string& where, const ThinCopy& thin, bool sure, Anatomy& apart) {
   std::erase_if(apart.warnings, [](const engine::Warning& w) { return w.code == "holes"; });
   apart.warnings.push_back(
       {"limbs-cut", "",
        "Parts of the body are welded to each other" + (where.empty() ? "" : " at " + where) +
            "; they were cut apart " + std::to_string(std::lround(1e3 * thin.depth / apart.stature_m)) +
            " thousandths of the stature below the skin.",
-       "Check the borders of parts there; a pose with arms and legs apart needs no cut."});
+       sure ? "" : "Check the borders of parts there; a pose with arms and legs apart needs no cut."});
 }
 
 /// A thin copy that has come apart, and what was found on it.
@@ -98,22 +113,54 @@ struct Parted {
   std::vector<Web> left;  ///< webs that no cut undid
 };
 
-/// What a web hides may be one more, so that each cut is followed by another look.
-std::optional<Parted> part(const WeldedBody& body, double depth, std::vector<Web> webs) {
+/// What a copy of the body, walled as it is now, shows when its limbs have come apart.
+std::optional<Parted> look(const WeldedBody& body, double depth) {
+  auto thin = body.skin.thin_copy(body.context, depth);
+  if (!thin) return std::nullopt;
+  auto found = body.analyze(body.context, thin->mesh, body.options);
+  if (!found || limbs_meet(*found) || !contradictions(thin->mesh, *found).empty()) return std::nullopt;
+  std::vector<Web> left = find_webs(body.context, thin->mesh, *found);
+  return Parted{std::move(*thin), std::move(*found), std::move(left)};
+}
+
+/// Webs become folds, each in place of the one that was there.
+void add_folds(const std::vector<Web>& webs, std::vector<Fold>& folds) {
+  for (const Web& web : webs) {
+    std::erase_if(folds, [&](const Fold& fold) { return fold.id == web.id; });
+    folds.push_back({web.id, web.fold, (web.fold - web.edge).normalized()});
+  }
+}
+
+bool is_cut(LandmarkId armpit, const std::vector<Fold>& folds) {
+  return armpit != LandmarkId::kPerineum && std::ranges::find(folds, armpit, &Fold::id) != folds.end();
+}
+
+int in_doubt(const Parted& parted) {
+  return doubts(parted.found) + static_cast<int>(parted.left.size());
+}
+
+/// Whether landmarks lie at the folds: below a wall with a gap they do not.
+bool reaches(const Anatomy& found, const std::vector<Fold>& folds) {
+  return std::ranges::all_of(folds, [&](const Fold& fold) {
+    const Vec3& mark = found.landmarks[static_cast<std::size_t>(fold.id)].position;
+    return (fold.at - mark).dot(fold.inward) < kBelowFold * found.stature_m;
+  });
+}
+
+/// Parts limbs that are known roughly. What a web hides may be one more, so that each cut is followed by
+/// another look, as long as that leaves less in doubt.
+std::optional<Parted> part_known(const WeldedBody& body, const Anatomy& rough, std::vector<Fold> folds) {
   std::optional<Parted> best;
-  const bool walled = body.skin.has_walls();
   for (int pass = 1; pass <= kPasses; ++pass) {
-    auto thin = body.skin.thin_copy(body.context, depth, webs);
-    if (!thin) return best;
-    auto found = body.analyze(body.context, thin->mesh, body.options);
-    if (!found) return best;
-    std::vector<Web> more = find_webs(body.context, thin->mesh, *found);
-    const bool good = !is_welded(found) && contradictions(thin->mesh, *found).empty();
-    if (!good && (best || walled)) return best;
-    webs.insert(webs.end(), more.begin(), more.end());
-    const bool last = more.empty();
-    if (good) best = Parted{std::move(*thin), std::move(*found), std::move(more)};
-    if (last) return best;
+    body.skin.wall_known_limbs(body.context, body.distance, best ? best->found : rough, folds);
+    auto parted = look(body, kDepths.front());
+    // An arm that a wall runs along shows a web whether there is one or not.
+    if (parted) std::erase_if(parted->left, [&](const Web& web) { return is_cut(web.id, folds); });
+    if (!parted || !reaches(parted->found, folds) || (best && in_doubt(*parted) >= in_doubt(*best)))
+      return best;
+    best = std::move(parted);
+    if (best->left.empty()) return best;
+    add_folds(best->left, folds);
   }
   return best;
 }
@@ -135,18 +182,50 @@ void doubt(const std::vector<Web>& webs, Anatomy& anatomy) {
   }
 }
 
-/// What is found on a thin copy, carried out to the skin, where that leaves no more in doubt than the skin as
-/// it is.
-std::optional<Anatomy> apart_at(const WeldedBody& body, double depth, const TriMesh& mesh,
-                                const std::vector<Web>& seen, const engine::Result<Anatomy>& as_is) {
-  const auto parted = part(body, depth, seen);
-  if (!parted) return std::nullopt;
-  Anatomy apart = carry_out(body.context, parted->thin, parted->found, mesh);
+/// What is found on a copy, carried out to the skin. Where only webs were cut and no landmark is in doubt,
+/// there is nothing to check.
+Anatomy carried(const WeldedBody& body, const Parted& parted, const engine::Result<Anatomy>& as_is,
+                bool webs_only) {
+  Anatomy apart = carry_out(body.context, parted.thin, parted.found, body.mesh);
   const std::string where = as_is ? folds(*as_is, apart) : "";
-  doubt(parted->left, apart);
-  if (as_is && doubts(apart) > doubts(*as_is) + static_cast<int>(seen.size())) return std::nullopt;
+  doubt(parted.left, apart);
   if (as_is) apart.stages = as_is->stages;
-  warn(where, parted->thin, apart);
+  warn(where, parted.thin, webs_only && doubts(apart) == 0, apart);
+  return apart;
+}
+
+/// A deep copy has lost fingers, and its folds lie too high. Once it shows how the limbs lie, they are parted
+/// by walls in a copy that is hardly thinner than the body.
+Anatomy refined(const WeldedBody& body, Anatomy rough, const std::vector<Web>& seen,
+                const engine::Result<Anatomy>& as_is) {
+  std::vector<Fold> folds = find_folds(body.context, body.mesh, rough);
+  std::vector<Web> armpits = seen;
+  std::erase_if(armpits, [](const Web& web) { return web.id == LandmarkId::kPerineum; });
+  add_folds(armpits, folds);
+  const auto parted = part_known(body, rough, std::move(folds));
+  if (!parted) return rough;
+  Anatomy fine = carried(body, *parted, as_is, false);
+  return doubts(fine) > doubts(rough) ? rough : fine;
+}
+
+/// What a copy of this depth shows, where that leaves no more in doubt than the skin as it is.
+std::optional<Anatomy> apart_at(const WeldedBody& body, double depth, const std::vector<Web>& seen,
+                                const engine::Result<Anatomy>& as_is) {
+  const auto parted = look(body, depth);
+  if (!parted || shows_welds(parted->found)) return std::nullopt;
+  Anatomy apart = refined(body, carried(body, *parted, as_is, false), seen, as_is);
+  if (as_is && doubts(apart) > doubts(*as_is) + static_cast<int>(seen.size())) return std::nullopt;
+  return apart;
+}
+
+std::optional<Anatomy> webs_apart(const WeldedBody& body, const std::vector<Web>& seen,
+                                  const engine::Result<Anatomy>& as_is) {
+  std::vector<Fold> folds;
+  add_folds(seen, folds);
+  const auto parted = part_known(body, *as_is, std::move(folds));
+  if (!parted) return std::nullopt;
+  Anatomy apart = carried(body, *parted, as_is, true);
+  if (doubts(apart) > doubts(*as_is) + static_cast<int>(seen.size())) return std::nullopt;
   return apart;
 }
 
@@ -156,25 +235,36 @@ bool is_of_two(const TriMesh& mesh) {
   return geometry::surface_area(mesh) > kMostArea * length * length;
 }
 
+std::optional<Anatomy> welds_apart(const WeldedBody& body, const std::vector<Web>& seen,
+                                   const engine::Result<Anatomy>& as_is) {
+  for (const double depth : std::span(kDepths).subspan(1)) {
+    body.skin.remove_walls();
+    if (auto apart = apart_at(body, depth, seen, as_is)) return apart;
+  }
+  if (!is_welded(as_is) || is_of_two(body.mesh)) return std::nullopt;
+  for (const double neck : kNecks)
+    for (const double depth : std::span(kDepths).first(kWalledDepths)) {
+      body.skin.wall_limbs(body.context, body.distance, neck);
+      if (auto apart = apart_at(body, depth, seen, as_is)) return apart;
+    }
+  return std::nullopt;
+}
+
 }  // namespace
 
 engine::Result<Anatomy> cut_welds(const engine::Context& context, const TriMesh& mesh, const Options& options,
                                   Analyze analyze) {
   auto as_is = analyze(context, mesh, options);
-  const std::vector<Web> seen = as_is ? find_webs(context, mesh, *as_is) : std::vector<Web>{};
+  const std::vector<Web> seen =
+      as_is ? find_webs(context, mesh, *as_is, options.made_up) : std::vector<Web>{};
   const bool welded = is_welded(as_is);
   if (!welded && seen.empty()) return as_is;
   const MeshDistance distance(context, mesh);
   if (auto skin = SampledSkin::make(mesh, distance)) {
-    const WeldedBody body{context, *skin, options, analyze};
-    for (const double depth : std::span(kDepths).subspan(welded ? 1 : 0))
-      if (auto apart = apart_at(body, depth, mesh, seen, as_is)) return std::move(*apart);
-    for (const double neck : kNecks) {
-      if (!welded || is_of_two(mesh)) break;
-      skin->wall_limbs(context, distance, neck);
-      for (const double depth : std::span(kDepths).first(kWalledDepths))
-        if (auto apart = apart_at(body, depth, mesh, seen, as_is)) return std::move(*apart);
-    }
+    const WeldedBody body{context, mesh, distance, *skin, options, analyze};
+    auto apart = welded ? std::nullopt : webs_apart(body, seen, as_is);
+    if (!apart) apart = welds_apart(body, seen, as_is);
+    if (apart) return std::move(*apart);
   }
   if (as_is) doubt(seen, *as_is);
   return as_is;

@@ -9,6 +9,7 @@
 #include <bodice/geometry/mesh_edges.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 
+#include "analyze/known_walls.hpp"
 #include "analyze/limb_walls.hpp"
 #include "landmarks/stature.hpp"
 
@@ -121,32 +122,6 @@ Index nearest_vertex(const TriMesh& skin, const Vec3& point) {
   return best;
 }
 
-/// A thin box that holds a web, and what may have grown together below it.
-class Cut {
- public:
-  Cut(const Web& web, double height, double half_thickness) : half_thickness_(half_thickness) {
-    const Vec3 inward = (web.fold - web.edge).normalized();
-    axes_.col(0) = inward;
-    axes_.col(1) = web.forward;
-    axes_.col(2) = inward.cross(web.forward);
-    low_ = web.edge - kBelow * height * inward;
-    half_ = {0.5 * (web.fold - low_).norm(), kHalfWidth * height, 0.0};
-    middle_ = low_ + half_.x() * inward;
-  }
-  /// Positive inside; changes by no more than the distance between two points.
-  double depth(const Vec3& p) const {
-    const Vec3 local = axes_.transpose() * (p - middle_);
-    return half_thickness_ - (local.cwiseAbs() - half_).cwiseMax(0.0).norm();
-  }
-
- private:
-  /// Reach below the edge and to each side, as shares of the body's height.
-  static constexpr double kBelow = 0.04, kHalfWidth = 0.1;
-  Eigen::Matrix3d axes_;
-  Vec3 low_, middle_, half_;
-  double half_thickness_;
-};
-
 }  // namespace
 
 std::optional<SampledSkin> SampledSkin::make(const TriMesh& skin, const MeshDistance& distance) {
@@ -157,17 +132,10 @@ std::optional<SampledSkin> SampledSkin::make(const TriMesh& skin, const MeshDist
   return SampledSkin(height, cell, geometry::NodeDistances(signed_distance, box, cell));
 }
 
-std::optional<ThinCopy> SampledSkin::thin_copy(const engine::Context& context, double depth_share,
-                                               std::span<const Web> webs) {
+std::optional<ThinCopy> SampledSkin::thin_copy(const engine::Context& context, double depth_share) {
   ThinCopy thin{{}, depth_share * height_, cell_};
-  std::vector<Cut> cuts;
-  for (const Web& web : webs) cuts.emplace_back(web, height_, cell_);
-  const auto below_or_cut = [&](double distance, const Vec3& p) {
-    double outside = distance + thin.depth;
-    for (const Cut& cut : cuts) outside = std::max(outside, cut.depth(p));
-    return outside;
-  };
-  geometry::FieldGrid grid = distances_.sample(context, below_or_cut);
+  geometry::FieldGrid grid =
+      distances_.sample(context, [&](double distance, const Vec3&) { return distance + thin.depth; });
   for (std::size_t i = 0; i < wall_.size(); ++i)
     if (wall_[i] && grid.value[i] < 0.0F) grid.value[i] = static_cast<float>(0.25 * cell_);
   const TriMesh all = contour(context, grid);
@@ -179,20 +147,29 @@ std::optional<ThinCopy> SampledSkin::thin_copy(const engine::Context& context, d
   return thin;
 }
 
+void SampledSkin::find_depths(const engine::Context& context, const MeshDistance& distance) {
+  if (!depth_.value.empty()) return;
+  depth_ = distances_.sample(context, [](double d, const Vec3&) { return d; });
+  const std::size_t nx = depth_.nodes[0], ny = depth_.nodes[1], nz = depth_.nodes[2];
+  engine::parallel_for(context, ny * nz, 1, [&](std::size_t row, std::size_t) {
+    for (std::size_t x = 0; x < nx; ++x) {
+      float& value = depth_.value[depth_.index(x, row % ny, row / ny)];
+      const Vec3 node(static_cast<double>(x), static_cast<double>(row % ny), static_cast<double>(row / ny));
+      const Vec3 at = depth_.low + depth_.cell_m * node;
+      value = value < 0.0F ? static_cast<float>((distance.closest_point(at).point - at).norm()) : -1.0F;
+    }
+  });
+}
+
 void SampledSkin::wall_limbs(const engine::Context& context, const MeshDistance& distance, double neck) {
-  if (depth_.value.empty()) {
-    depth_ = distances_.sample(context, [](double d, const Vec3&) { return d; });
-    const std::size_t nx = depth_.nodes[0], ny = depth_.nodes[1], nz = depth_.nodes[2];
-    engine::parallel_for(context, ny * nz, 1, [&](std::size_t row, std::size_t) {
-      for (std::size_t x = 0; x < nx; ++x) {
-        float& value = depth_.value[depth_.index(x, row % ny, row / ny)];
-        const Vec3 node(static_cast<double>(x), static_cast<double>(row % ny), static_cast<double>(row / ny));
-        const Vec3 at = depth_.low + depth_.cell_m * node;
-        value = value < 0.0F ? static_cast<float>((distance.closest_point(at).point - at).norm()) : -1.0F;
-      }
-    });
-  }
+  find_depths(context, distance);
   wall_ = limb_walls(depth_, neck);
+}
+
+void SampledSkin::wall_known_limbs(const engine::Context& context, const MeshDistance& distance,
+                                   const Anatomy& found, const std::vector<Fold>& folds) {
+  find_depths(context, distance);
+  wall_ = known_walls(depth_, found, folds);
 }
 
 Anatomy carry_out(const engine::Context& context, const ThinCopy& thin, const Anatomy& found,

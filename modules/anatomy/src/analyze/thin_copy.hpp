@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -30,19 +29,22 @@ class SampledSkin {
   static std::optional<SampledSkin> make(const geometry::TriMesh& skin,
                                          const geometry::MeshDistance& distance);
 
-  /// Returns the surface at a depth below the skin, which is `depth_share` of the body's height, with webs
-  /// cut out. Returns nothing if no point lies so deep. Cost: half a second, half of it for another copy of
-  /// the same skin.
-  std::optional<ThinCopy> thin_copy(const engine::Context& context, double depth_share,
-                                    std::span<const Web> webs);
+  /// Returns the surface at a depth below the skin, which is `depth_share` of the body's height. Returns
+  /// nothing if no point lies so deep. Cost: half a second, half of it for another copy of the same skin.
+  std::optional<ThinCopy> thin_copy(const engine::Context& context, double depth_share);
   /// Parts limbs in all copies that follow where limb_walls does. Cost: half a second, less when called
   /// again.
   void wall_limbs(const engine::Context& context, const geometry::MeshDistance& distance, double neck);
-  bool has_walls() const { return !wall_.empty(); }
+  void remove_walls() { wall_.clear(); }
+  /// Parts limbs likewise where known_walls does.
+  void wall_known_limbs(const engine::Context& context, const geometry::MeshDistance& distance,
+                        const Anatomy& found, const std::vector<Fold>& folds);
 
  private:
   SampledSkin(double height, double cell, geometry::NodeDistances distances)
       : height_(height), cell_(cell), distances_(std::move(distances)) {}
+
+  void find_depths(const engine::Context& context, const geometry::MeshDistance& distance);
 
   double height_, cell_;
   geometry::NodeDistances distances_;

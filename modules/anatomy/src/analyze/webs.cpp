@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <bodice/geometry/fins.hpp>
@@ -32,17 +33,27 @@ constexpr double kAhead = 0.084, kAheadStep = 0.012;  ///< where the thickest po
 constexpr double kShallow = 0.015;                    ///< what lies less deep shows no fold
 constexpr std::array kLimbs{0.03, 0.045};             ///< from the plane to the middles of the limbs
 /// The plane is above the fold where it has at least this share of the room beside it.
-constexpr double kAsDeep = 0.9;
-/// The least room of a web; whole bodies have less, with straight thighs and with bent ones: of 235 that
-/// stand 229 have less than .019 at the crotch and all but one less at the armpits, of 179 others all but
-/// one. Thighs of heavy bodies that meet have up to .022; a landmark that is off by less than .03 counts as
-/// right.
+constexpr double kAsDeep = 0.9, kQuiteAsDeep = 0.95;
+/// Between thighs that have not grown together, both shares are reached this far above the crotch, in the
+/// mean, and higher in trunks that are deeper than most by this share of what they are deeper.
+constexpr double kOpenCrotch = 0.059, kDeepTrunk = 0.058, kPerDepth = 0.6;
+/// A web holds room itself, so that its fold lies this much higher than it would without.
+constexpr double kOwnRoom = 0.0075;
+/// The plane between the thighs is looked for so far to both sides, at levels with a share of their room
+/// that grows with the distance.
+constexpr double kAside = 0.04, kAsideStep = 0.005, kOffMiddle = 0.3;
+constexpr std::array kNearLevels{0.012, 0.02, 0.028};
+/// On a thin copy the crotch lies up to so much too high, or too low where a web is left.
+constexpr double kTooHigh = 0.06, kTooLow = 0.12;
+/// Skin within so much more than the nearest is made up if this share of its vertices is.
+constexpr double kMadeUpAround = 0.03, kMadeUpShare = 0.03;
+/// The least height of a web: whole bodies show less, with straight thighs and with bent ones. Of 240 that
+/// stand all show less than .021 at the crotch. Where holes were closed, webs are the rule.
 struct Least {
   double crotch, armpit;
 };
-constexpr Least kStanding{0.026, 0.013}, kBent{0.035, 0.025};
-/// A body stands if the cosines of both thighs reach this.
-constexpr double kUpright = 0.75;
+constexpr std::array kFoldLandmarks{LandmarkId::kArmpitL, LandmarkId::kArmpitR, LandmarkId::kPerineum};
+constexpr Least kStanding{0.0225, 0.013}, kBent{0.035, 0.025}, kMadeUp{0.008, 0.006};
 
 /// The route from a landmark into the body, between the two limbs that meet there.
 struct Route {
@@ -154,20 +165,96 @@ std::optional<double> fold_height(const Room& room) {
   return std::nullopt;
 }
 
+/// Returns how far inward the fold between the thighs lies: below the levels that are as deep between them as
+/// in them.
+std::optional<double> crotch_height(const Room& room) {
+  std::optional<double> first;
+  for (double inward = kStep; inward < kFarthest; inward += kStep) {
+    const double between = room.between(inward), beside = room.beside(inward);
+    if (!first && between > kShallow && between >= kAsDeep * beside) first = inward;
+    if (first && between >= kQuiteAsDeep * beside)
+      return 0.5 * (*first + inward) - kOpenCrotch - kPerDepth * std::max(0.0, between - kDeepTrunk);
+  }
+  return std::nullopt;
+}
+
+/// Returns how far across the plane between the thighs lies: where there is least room a little above the
+/// landmark.
+double middle_of(const Room& room) {
+  double best = 0.0, least = std::numeric_limits<double>::infinity();
+  for (double across = -kAside; across < kAside + 0.5 * kAsideStep; across += kAsideStep) {
+    double depth = kOffMiddle * std::abs(across);
+    for (const double inward : kNearLevels) depth += room.on_line(inward, across);
+    if (depth < least) least = depth, best = across;
+  }
+  return best;
+}
+
+/// The share of the skin around a point that is made up.
+double made_up_share(const TriMesh& skin, std::span<const std::uint8_t> made_up, const Vec3& point,
+                     double around) {
+  const std::vector<Vec3>& positions = skin.positions;
+  if (made_up.size() != positions.size()) return 0.0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Vec3& p : positions) nearest = std::min(nearest, (p - point).norm());
+  std::size_t all = 0, sum = 0;
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    if ((positions[v] - point).norm() > nearest + around) continue;
+    ++all;
+    sum += made_up[v];
+  }
+  return static_cast<double>(sum) / static_cast<double>(std::max<std::size_t>(all, 1));
+}
+
+/// How much of a web is named.
+double least_of(const TriMesh& skin, const Anatomy& found, std::span<const std::uint8_t> made_up,
+                const Vec3& point, bool crotch) {
+  const bool stands = std::ranges::min(thigh_cosines(found)) >= kUpright;
+  const double share = made_up_share(skin, made_up, point, kMadeUpAround * found.stature_m);
+  const Least& least = share >= kMadeUpShare ? kMadeUp : stands ? kStanding : kBent;
+  return crotch ? least.crotch : least.armpit;
+}
+
+std::optional<Web> find_web(const engine::Context& context, const TriMesh& skin, const Anatomy& found,
+                            std::span<const std::uint8_t> made_up, LandmarkId id) {
+  const bool crotch = id == LandmarkId::kPerineum;
+  Route route = route_inward(found, id);
+  const MeshDistance near(context, crop(skin, route.from, kAround * found.stature_m));
+  if (const auto hit = near.closest_point_within(route.from, kAround * found.stature_m))
+    route.from = hit->point;
+  if (crotch) route.from += found.stature_m * middle_of(Room(near, route, found.stature_m)) * route.across;
+  const Room room(near, route, found.stature_m);
+  const std::optional<double> height = crotch ? crotch_height(room) : fold_height(room);
+  if (!height || *height < least_of(skin, found, made_up, route.from, crotch)) return std::nullopt;
+  return Web{id, route.from, route.from + (*height + kOwnRoom) * found.stature_m * route.inward};
+}
+
+/// The fold between thighs that a copy shows parted lies where the skin shows room between them.
+Vec3 crotch_fold(const engine::Context& context, const TriMesh& skin, const Anatomy& found, Route route) {
+  const MeshDistance near(context, crop(skin, route.from, kAround * found.stature_m));
+  route.from -= kTooHigh * found.stature_m * route.inward;
+  const std::optional<double> height = crotch_height(Room(near, route, found.stature_m));
+  const double above = height ? std::clamp(*height + kOwnRoom, 0.0, kTooHigh + kTooLow) : kTooHigh;
+  return route.from + above * found.stature_m * route.inward;
+}
+
 }  // namespace
 
-std::vector<Web> find_webs(const engine::Context& context, const TriMesh& skin, const Anatomy& found) {
-  std::vector<Web> webs;
-  const Least& least = std::ranges::min(thigh_cosines(found)) < kUpright ? kBent : kStanding;
-  for (const LandmarkId id : {LandmarkId::kArmpitL, LandmarkId::kArmpitR, LandmarkId::kPerineum}) {
-    Route route = route_inward(found, id);
-    const MeshDistance near(context, crop(skin, route.from, kAround * found.stature_m));
-    if (const auto hit = near.closest_point_within(route.from, kAround * found.stature_m))
-      route.from = hit->point;
-    const std::optional<double> height = fold_height(Room(near, route, found.stature_m));
-    if (!height || *height < (id == LandmarkId::kPerineum ? least.crotch : least.armpit)) continue;
-    webs.push_back({id, route.from, route.from + *height * found.stature_m * route.inward, route.forward});
+std::vector<Fold> find_folds(const engine::Context& context, const TriMesh& skin, const Anatomy& found) {
+  std::vector<Fold> folds;
+  for (const LandmarkId id : kFoldLandmarks) {
+    const Route route = route_inward(found, id);
+    const bool crotch = id == LandmarkId::kPerineum;
+    folds.push_back({id, crotch ? crotch_fold(context, skin, found, route) : route.from, route.inward});
   }
+  return folds;
+}
+
+std::vector<Web> find_webs(const engine::Context& context, const TriMesh& skin, const Anatomy& found,
+                           std::span<const std::uint8_t> made_up) {
+  std::vector<Web> webs;
+  for (const LandmarkId id : kFoldLandmarks)
+    if (const auto web = find_web(context, skin, found, made_up, id)) webs.push_back(*web);
   return webs;
 }
 

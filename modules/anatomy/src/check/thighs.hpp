@@ -8,6 +8,9 @@
 
 namespace bodice::inline v0_1::anatomy {
 
+/// A body stands if the cosines of both thighs reach this.
+inline constexpr double kUpright = 0.75;
+
 /// Cosines between the left and the right thigh and the line from perineum to neck: near 1 for a body that
 /// stands, near 0 for one that sits.
 inline std::array<double, 2> thigh_cosines(const Anatomy& anatomy) {

@@ -66,8 +66,10 @@ engine::Result<engine::Output<std::shared_ptr<SegmentedSkin>>> add_segment_tasks
       "anatomy",
       [known = anatomy::Options{.profile = *profile, .force = options.force}](
           const engine::Context& context, const io::ImportedMesh& body) -> engine::Result<anatomy::Anatomy> {
+        anatomy::Options of_this = known;
+        of_this.made_up = body.made_up;
         auto found = body.shape == io::Shape::kAny ? anatomy::analyze_thing(context, body.skin)
-                                                   : anatomy::analyze(context, body.skin, known);
+                                                   : anatomy::analyze(context, body.skin, of_this);
         if (!found) return of_body(std::move(found).error(), body);
         return found;
       },

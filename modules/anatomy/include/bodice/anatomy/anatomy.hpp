@@ -1,6 +1,8 @@
 // Finds the landmarks and the 15 parts of a skin: the paper's section 2.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include <bodice/body/landmark.hpp>
@@ -16,6 +18,8 @@ namespace bodice::inline v0_1::anatomy {
 struct Options {
   body::ProportionProfile profile;  ///< from body::find_profile("ansur2") or a file
   bool force = false;               ///< what contradicts a human body is a warning, not an error
+  /// #V of the skin, or empty: 1 for vertices that close a hole. Creases that they hide are looked for.
+  std::span<const std::uint8_t> made_up = {};
 };
 
 /// What is known of a body after its analysis.
