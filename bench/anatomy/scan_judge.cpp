@@ -72,8 +72,9 @@ bool is_doubt(const bodice::engine::Warning& warning) {
                                                   "skin-touches",
                                                   "noise-smoothed",
                                                   "skin-thinned"};
-  // A rebuilt skin is in doubt where a good part of it is made up: only then the warning has a remedy.
-  if (warning.code == "skin-rebuilt") return !warning.remedy.empty();
+  // A rebuilt skin is in doubt where a good part of it is made up, one that was cut where more than webs
+  // were: only then the warning has a remedy.
+  if (warning.code == "skin-rebuilt" || warning.code == "limbs-cut") return !warning.remedy.empty();
   return !kNoDoubts.contains(warning.code);
 }
 
