@@ -24,11 +24,17 @@ tryon::PreparationOptions options_for(proxy::Tier tier) {
   return options;
 }
 
+/// The same with few ellipsoids, so that a fit ends soon.
+tryon::PreparationOptions quick_options_for(proxy::Tier tier) {
+  tryon::PreparationOptions options = options_for(tier);
+  options.fit.max_ellipsoids = 40;
+  return options;
+}
+
 /// The hashes of the published proxies, in order.
 std::vector<std::uint64_t> proxies_of(const engine::Context& context, proxy::Tier tier) {
   std::vector<std::uint64_t> hashes;
-  tryon::PreparationOptions options = options_for(tier);
-  options.fit.max_ellipsoids = 40;
+  const tryon::PreparationOptions options = quick_options_for(tier);
   auto preparation = tryon::Preparation::make(
       options, [&](const auto&, const proxy::BodyProxy& proxy) { hashes.push_back(proxy.hash()); });
   REQUIRE(preparation.ok());
@@ -154,7 +160,7 @@ TEST_CASE("canceled at any moment, a preparation ends with whole proxies and can
   std::ranges::sort(known);
   std::vector<std::uint64_t> seen;
   auto preparation = tryon::Preparation::make(
-      options_for(proxy::Tier::kTight),
+      quick_options_for(proxy::Tier::kTight),
       [&](const auto&, const proxy::BodyProxy& proxy) { seen.push_back(proxy.hash()); });
   REQUIRE(preparation.ok());
   engine::Random random(5);
