@@ -45,6 +45,7 @@ struct SelfContact {
   Vec3 origin = Vec3::Zero();            ///< that of the particles' frame at the last search
   bool searched = false;                 ///< whether there was a search that may still hold
   bool sided = false;                    ///< whether it is known what crosses
+  int failed_yields = 0;                 ///< substeps of this frame in which layers crossed all the same
   SelfContactReport report;              ///< of this frame
 };
 
