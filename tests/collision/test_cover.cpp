@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -145,6 +146,29 @@ TEST_CASE("ellipsoids without a table, or with one of two nodes a side, keep wha
   CHECK(report.left == report.uncovered);
   const auto after = contacts_at(collider, cloud);
   CHECK(std::memcmp(before.data(), after.data(), before.size() * sizeof(Contact)) == 0);
+}
+
+TEST_CASE("a table that rises stays continuous where the octahedral map is folded") {
+  // The borders of the map are the directions (x, 0, z) and (0, y, z) with z < 0; its corners are (0, 0, -1).
+  const auto flat = with_tables(data_of(ball(0.1)), 24, 0.002, [](std::size_t, int, int) {
+    return proxy::ReliefTexel{128, 128};
+  });
+  for (const double angle : {0.0, 0.2, 0.7, 1.2})
+    for (const bool along_x : {true, false}) {
+      const auto beside = [&](double by, double radius_m) -> Vec3 {
+        const double x = std::sin(angle), z = -std::cos(angle);
+        return radius_m * (along_x ? Vec3(x, by, z) : Vec3(by, x, z)).normalized();
+      };
+      Collider collider(proxy_of(flat));
+      const std::vector<Vec3> skin = {beside(0.02, 0.104)};  // on one side alone
+      REQUIRE(collider.cover({}, skin, {.tolerance_m = kTolerance_m}).uncovered == 1);
+      const double left = distance_at(collider, beside(-1e-5, 0.105));
+      const double right = distance_at(collider, beside(1e-5, 0.105));
+      CAPTURE(angle);
+      CAPTURE(along_x);
+      CHECK(right < 0.005 - 0.5e-3);  // it has risen
+      CHECK(std::abs(left - right) < 1e-5);
+    }
 }
 
 TEST_CASE("after a cover, queries with a limit have the bits of those without") {

@@ -17,7 +17,8 @@ constexpr int kMostRounds = 3;  // after three, one point in a thousand of those
 constexpr float kFarthest = 10.0f;
 /// A point is raised to this share of the tolerance: to zero, the surface would lie over the skin around it.
 constexpr float kLeftShare = 0.8f;
-constexpr int kLeastNodes = 3;  // an ellipsoid without a table has a flat one of two, which is not its own
+/// An ellipsoid without a table has a flat one of two nodes a side, which is not its own and may not rise.
+constexpr int kLeastNodes = 3;
 constexpr std::size_t kOwnerGrain = 4;  // tables a task, some microseconds each
 
 bool is_within(const Vec3& point, const CoverOptions& options) {

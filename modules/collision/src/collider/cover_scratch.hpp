@@ -11,7 +11,7 @@
 
 namespace bodice::inline v0_1::collision {
 
-/// Points of one owner: a part of CoverScratch::uncovered.
+/// The range of CoverScratch::uncovered that has the points of one owner.
 struct OwnerSpan {
   std::size_t begin = 0, end = 0;
 };
@@ -21,12 +21,12 @@ struct CoverScratch {
   /// Makes room for so many points and for proxies with so many ellipsoids and texels.
   void reserve(std::size_t points, std::size_t ellipsoids, std::size_t texels);
 
-  std::vector<std::uint32_t> point;       ///< those of a round: indices in the caller's array
-  std::vector<float> x, y, z;             ///< the same points, meters, local frame
-  std::vector<Contact> contacts;          ///< of the same points
-  std::vector<UncoveredPoint> uncovered;  ///< those that are outside, by owner
-  std::vector<OwnerSpan> owners;          ///< of uncovered
-  std::vector<float> rise_m;              ///< a number a texel of all tables
+  std::vector<std::uint32_t> point;       ///< the points of a round: indices in the caller's array
+  std::vector<float> x, y, z;             ///< positions of the round's points, meters, local frame
+  std::vector<Contact> contacts;          ///< contacts of the round's points
+  std::vector<UncoveredPoint> uncovered;  ///< the round's points outside of the surface, sorted by owner
+  std::vector<OwnerSpan> owners;          ///< a range of `uncovered` for each owner
+  std::vector<float> rise_m;              ///< a number for each texel of all tables
 };
 
 }  // namespace bodice::collision

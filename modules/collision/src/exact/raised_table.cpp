@@ -9,7 +9,8 @@
 namespace bodice::inline v0_1::collision {
 namespace {
 
-constexpr float kLeastRange_m = 1e-6f;  // of a flat table, so that its step is not zero
+/// The range of heights that a flat table is given, so that its step is not zero.
+constexpr float kLeastRange_m = 1e-6f;
 
 void add_rise(const UnionField& field, const ReliefTables& relief, const UncoveredPoint& point,
               std::span<float> rise_m) {

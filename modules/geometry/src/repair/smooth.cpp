@@ -66,7 +66,7 @@ struct HeightRange {
 struct Widest {
   Quadric quadric;
   double height;    ///< how far the vertex moves along its normal
-  double variance;  ///< of the height where points have a variance of 1
+  double variance;  ///< variance of the height where points have a variance of 1
   int rings;
 };
 

@@ -29,7 +29,7 @@ class Welder {
   /// A point in the list of its bucket.
   struct Link {
     Index previous;      ///< the previous point of the same bucket
-    std::uint32_t mark;  ///< of its cell: points of other cells in the bucket need not be looked at
+    std::uint32_t mark;  ///< a mark of its cell, by which points of other cells in the bucket are skipped
   };
   Cell cell_of(const Vec3& p) const;
   Index find_in(const Cell& cell, const Vec3& p) const;

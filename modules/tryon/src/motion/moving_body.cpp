@@ -62,9 +62,11 @@ engine::Result<void> MovingBody::pose(const engine::Context& context, std::span<
 
 void MovingBody::cover(const engine::Context& context, std::optional<std::span<const geometry::Box>> within) {
   if (!collider_.has_relief()) return;
-  if (blend_.share() > 0.0) skin_positions({});  // into posed_
-  const std::vector<Vec3>& positions = blend_.share() > 0.0 ? posed_.positions : skin(context).positions;
-  collider_.cover(context, positions, {.within = within});
+  if (blend_.share() > 0.0)
+    skin_positions({});  // which poses the skin between two shapes
+  else
+    skin(context);
+  collider_.cover(context, posed_.positions, {.within = within});
 }
 
 const geometry::TriMesh& MovingBody::skin(const engine::Context& context) {
