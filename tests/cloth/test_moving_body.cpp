@@ -29,6 +29,15 @@ cloth::SolverOptions weightless() {
   return options;
 }
 
+/// So many particles at the origin, without a mass.
+cloth::Particles particles_at_rest(std::size_t count) {
+  cloth::Particles p;
+  for (auto* values : {&p.x, &p.y, &p.z, &p.vx, &p.vy, &p.vz, &p.old_x, &p.old_y, &p.old_z})
+    values->assign(count, 0.0f);
+  p.size = count;
+  return p;
+}
+
 void move(collision::Collider& body, const geometry::Ellipsoid& shape) {
   body.move_to({&shape, 1}, kFrame_s);
 }
@@ -196,16 +205,48 @@ TEST_CASE("moving body: cloth around a limb stays with it when another limb come
   }
 }
 
+TEST_CASE("moving body: a particle with a long path leaves its neighbors to the quick push") {
+  constexpr std::size_t kCount = 200, kLong = 70;
+  geometry::Ellipsoid limb{Vec3::Zero(), geometry::Mat3::Identity(), Vec3(0.3, 0.05, 0.05)};
+  collision::Collider body = ellipsoid_body(limb.center, limb.radii);
+  limb.center.z() += 0.01;
+  move(body, limb);
+  // All press 0.5 mm into the limb from above. One was pulled through it, from 2 cm above it to 2 cm below.
+  const auto resolve = [&](bool one_is_pulled) {
+    cloth::Particles p = particles_at_rest(kCount);
+    for (std::size_t i = 0; i < kCount; ++i) {
+      p.x[i] = p.old_x[i] = 1e-3f * static_cast<float>(i) - 0.1f;
+      p.y[i] = static_cast<float>(0.05 * std::sqrt(1.0 - std::pow(double{p.x[i]} / 0.3, 2)) - 5e-4);
+      p.old_y[i] = p.y[i] + 1e-3f;
+    }
+    if (one_is_pulled) p.old_y[kLong] = 0.07f, p.y[kLong] = -0.07f;
+    cloth::BodyMotion motion = cloth::make_motion(kCount, 0.5);
+    motion.ccd_threshold_m = 0.01f;
+    motion.turns.resize(body.size());
+    cloth::begin_motion_frame({}, {.body = &body, .moving = true, .length_s = kFrame_s}, p, motion, {});
+    const cloth::BodyContact contact = {
+        .body = &body, .how = {.thickness_m = 0.002f}, .substep = {.share = {0.9f, 1.0f}}};
+    const collision::ContactReport report = cloth::resolve_moving({}, contact, motion, 0, kCount, p);
+    return std::pair(std::move(p), report);
+  };
+  const auto [with, of_all] = resolve(true);
+  const auto [without, of_others] = resolve(false);
+  CHECK(of_others.judged_exactly == 0);
+  CHECK(of_all.judged_exactly == 1);
+  CHECK(of_all.wrong_side == 1);
+  CHECK(of_all.contacts == kCount);
+  CHECK(with.y[kLong] > 0.04f);
+  for (std::size_t i = 0; i < kCount; ++i)
+    if (i != kLong) REQUIRE(with.y[i] == without.y[i]);
+}
+
 TEST_CASE("moving body: a push is along the normal of the body as it is when the substep ends") {
   constexpr double kTurn_rad = 0.3;
   geometry::Ellipsoid limb{Vec3::Zero(), geometry::Mat3::Identity(), Vec3(0.3, 0.05, 0.05)};
   collision::Collider body = ellipsoid_body(limb.center, limb.radii);
   limb.axes = Eigen::AngleAxisd(kTurn_rad, Vec3::UnitZ()).toRotationMatrix();
   move(body, limb);
-  cloth::Particles p;
-  for (auto* values : {&p.x, &p.y, &p.z, &p.vx, &p.vy, &p.vz, &p.old_x, &p.old_y, &p.old_z})
-    values->assign(1, 0.0f);
-  p.size = 1;
+  cloth::Particles p = particles_at_rest(1);
   p.y[0] = static_cast<float>(0.052 - body.origin().y());
   cloth::BodyMotion motion = cloth::make_motion(1, 0.5);
   motion.ccd_threshold_m = 1.0f;
