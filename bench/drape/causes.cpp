@@ -97,11 +97,12 @@ Causes find_causes(const engine::Context& context, const Judged& j, std::size_t 
   const geometry::MeshDistance posed(context, {j.draped.body_frames[frame], skin.input.skin.triangles});
   const collision::Collider collider = collider_in(context, j, frame);
   const std::vector<Vec3>& at = j.draped.garments.front().frames[frame];
+  geometry::DistanceWalk walk(posed);
   Causes causes;
   for (const geometry::Triangle& t : j.garment.triangles) {
     std::optional<Part> own;
     bool corner_in = false;
-    tryon::for_each_inside(posed, at, t, kVisible_m, [&](const tryon::InsidePoint& point) {
+    tryon::for_each_inside(posed, walk, at, t, kVisible_m, [&](const tryon::InsidePoint& point) {
       if (!own) {
         own = part_at(skin, *skin.distance, j.garment.positions[t[0]]);
         corner_in = std::ranges::any_of(t, [&](auto v) { return depth_in(collider, at[v]) > kVisible_m; });

@@ -25,7 +25,7 @@ constexpr double kTwoLayers = 1.5;            // a winding number
 double true_distance_m(const geometry::MeshDistance& skin, const Vec3& point) {
   const geometry::SurfacePoint nearest = skin.closest_point(point);
   const bool overlapped =
-      skin.winding_number(point) > kTwoLayers || skin.inside(nearest.point + kOver_m * nearest.normal);
+      skin.winds_more_than(kTwoLayers, point) || skin.inside(nearest.point + kOver_m * nearest.normal);
   return overlapped ? std::numeric_limits<double>::quiet_NaN() : nearest.signed_distance;
 }
 

@@ -112,6 +112,8 @@ void check_against_brute_force(const TriMesh& mesh, int count) {
       CHECK((got.signed_distance < 0.0) == (winding > 0.5));
       CHECK(distance.inside(query) == (winding > 0.5));
     }
+    if (std::abs(winding - 1.5) > 0.02 && truth > noise)
+      CHECK(distance.winds_more_than(1.5, query) == (winding > 1.5));
     const auto within = distance.closest_point_within(query, truth * (1.0 + 1e-12) + 2.0 * noise);
     REQUIRE(within);
     CHECK(std::abs(within->signed_distance - truth) <= noise + 1e-13 * truth);
@@ -145,6 +147,21 @@ TEST_CASE("the extremes: every usable hostile mesh after repair, and no crash be
     REQUIRE(repaired.ok() == extreme.usable);
     if (extreme.usable) check_against_brute_force(repaired->mesh, 30);
   }
+}
+
+TEST_CASE("a mesh is closed where its border is empty") {
+  const auto is_closed = [](const TriMesh& mesh) { return MeshDistance(Context{}, mesh).is_closed(); };
+  CHECK(is_closed({}));
+  CHECK(is_closed(icosphere(1.0, 2)));
+  CHECK(is_closed(joined(torus(1.0, 0.3, 40, 20), box({0.5, 1.0, 0.2}, 2))));
+  CHECK_FALSE(is_closed(sheet(1.0, 2.0, 5, 7)));
+  CHECK_FALSE(is_closed(cylinder(0.3, 2.0, 24, 8, false)));
+  TriMesh mesh = icosphere(1.0, 2);
+  std::swap(mesh.triangles[7][0], mesh.triangles[7][1]);
+  CHECK_FALSE(is_closed(mesh));
+  std::swap(mesh.triangles[7][0], mesh.triangles[7][1]);
+  mesh.positions[3].x() = NAN;  // its triangles are left out
+  CHECK_FALSE(is_closed(mesh));
 }
 
 TEST_CASE("an empty mesh is infinitely far") {

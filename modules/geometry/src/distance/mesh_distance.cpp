@@ -1,7 +1,9 @@
 #include <bodice/geometry/mesh_distance.hpp>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <span>
 
 #include "distance/bvh.hpp"
 #include "distance/bvh_nearest.hpp"
@@ -14,7 +16,7 @@ namespace {
 // one on bodies, which decides the side of a point except next to a hole. There the finer ratio is used.
 constexpr double kCoarseFar = 2.5;
 constexpr double kFineFar = 6.0;
-/// A winding number in floats decides the side where it is farther than `decided` from one half.
+/// A winding number in floats decides a comparison where it differs by more than `decided`.
 struct FloatPass {
   double far_ratio, decided;
 };
@@ -22,22 +24,47 @@ constexpr FloatPass kFloatPasses[] = {{kCoarseFar, 0.15}, {kFineFar, 2e-3}};
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// Bits that look random, of 64 bits. Based on: Guy L. Steele Jr., Doug Lea, Christine H. Flood. Fast
+// Splittable Pseudorandom Number Generators. 2014. - the mixing function of SplitMix64
+std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+// Whether the border of these triangles is empty. Each edge adds a number of its own, with the sign of its
+// direction. A sum of zero that is not an empty border has a chance of 2^-64.
+bool is_without_border(const TriMesh& mesh, std::span<const Index> triangles) {
+  std::uint64_t sum = 0;
+  for (const Index k : triangles)
+    for (int c = 0; c < 3; ++c) {
+      const std::uint64_t a = mesh.triangles[k][c], b = mesh.triangles[k][(c + 1) % 3];
+      if (a < b) sum += mixed(a << 32 | b);
+      if (a > b) sum -= mixed(b << 32 | a);
+    }
+  return sum == 0;
+}
+
 }  // namespace
 
 struct MeshDistance::Impl {
   Bvh bvh;
   std::vector<DipoleNode> dipoles;
+  bool is_closed;
 
   Impl(const engine::Context& context, const TriMesh& mesh)
-      : bvh(build_bvh(context, mesh)), dipoles(build_dipoles(bvh)) {}
+      : bvh(build_bvh(context, mesh)),
+        dipoles(build_dipoles(bvh)),
+        is_closed(is_without_border(mesh, bvh.triangle_of_leaf)) {}
 
-  bool inside(const Vec3& local) const {
+  bool winds_more_than(double number, const Vec3& local) const {
     for (const FloatPass& pass : kFloatPasses) {
       const std::optional<double> found = float_winding_number(bvh, dipoles, local, pass.far_ratio);
       if (!found) break;
-      if (std::abs(*found - 0.5) > pass.decided) return *found > 0.5;
+      if (std::abs(*found - number) > pass.decided) return *found > number;
     }
-    return geometry::winding_number(bvh, dipoles, local, kFineFar) > 0.5;
+    return geometry::winding_number(bvh, dipoles, local, kFineFar) > number;
   }
 
   SurfacePoint surface_point(const BvhHit& hit) const {
@@ -62,7 +89,7 @@ SurfacePoint MeshDistance::closest_point(const Vec3& query) const {
   const BvhHit hit = nearest_triangle(impl_->bvh, local, kInfinity);
   if (hit.leaf_triangle == ~0u) return {.signed_distance = kInfinity};
   SurfacePoint result = impl_->surface_point(hit);
-  if (impl_->inside(local)) result.signed_distance = -result.signed_distance;
+  if (impl_->winds_more_than(0.5, local)) result.signed_distance = -result.signed_distance;
   return result;
 }
 
@@ -77,8 +104,12 @@ std::optional<SurfacePoint> MeshDistance::closest_point_within(const Vec3& query
   return impl_->surface_point(hit);
 }
 
-bool MeshDistance::inside(const Vec3& query) const {
-  return impl_->inside(impl_->bvh.to_local(query));
+bool MeshDistance::winds_more_than(double number, const Vec3& query) const {
+  return impl_->winds_more_than(number, impl_->bvh.to_local(query));
+}
+
+bool MeshDistance::is_closed() const {
+  return impl_->is_closed;
 }
 
 double MeshDistance::winding_number(const Vec3& query) const {

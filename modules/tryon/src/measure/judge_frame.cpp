@@ -65,6 +65,23 @@ struct Patch {
   double area_m2 = 0.0, longest_m = 0.0;
 
   int splits() const { return std::max(1, static_cast<int>(std::ceil(longest_m / kSpacing_m))); }
+
+  /// Calls visit(point, area) for the centers of the equal triangles that it is split into, row by row, so
+  /// that each lies beside the one before.
+  template <class Visit>
+  void for_each_sample(Visit&& visit) const {
+    const int n = splits();
+    const double each_m2 = area_m2 / (static_cast<double>(n) * n);
+    for (int i = 0; i < n; ++i) {
+      const int in_row = 2 * (n - i) - 1;
+      for (int k = 0; k < in_row; ++k) {
+        const int along = i % 2 == 0 ? k : in_row - 1 - k;
+        const int j = along / 2, down = along % 2;
+        const double u = (i + (1.0 + down) / 3.0) / n, v = (j + (1.0 + down) / 3.0) / n;
+        visit(Vec3((1.0 - u - v) * a + u * b + v * c), each_m2);
+      }
+    }
+  }
 };
 
 Patch patch_of(std::span<const Vec3> positions, const geometry::Triangle& t) {
@@ -79,7 +96,7 @@ Patch patch_of(std::span<const Vec3> positions, const geometry::Triangle& t) {
 
 bool is_overlapped(const geometry::MeshDistance& distance, const Vec3& point,
                    const geometry::SurfacePoint& nearest) {
-  return distance.winding_number(point) > kOverlap ||
+  return distance.winds_more_than(kOverlap, point) ||
          distance.inside(nearest.point + kOver_m * nearest.normal);
 }
 
@@ -103,24 +120,19 @@ ProxyError measure_proxy_error(const engine::Context& context, const collision::
   return summarize(samples);
 }
 
-void for_each_inside(const geometry::MeshDistance& skin, std::span<const Vec3> positions,
-                     const geometry::Triangle& triangle, double depth_m,
+void for_each_inside(const geometry::MeshDistance& skin, geometry::DistanceWalk& walk,
+                     std::span<const Vec3> positions, const geometry::Triangle& triangle, double depth_m,
                      const std::function<void(const InsidePoint&)>& visit) {
   const Patch patch = patch_of(positions, triangle);
   if (!(patch.area_m2 > 0.0) || !std::isfinite(patch.area_m2)) return;
   // A distance changes by no more than the point moves, so that most triangles need one.
-  if (skin.signed_distance((patch.a + patch.b + patch.c) / 3.0) > patch.longest_m) return;
-  const int n = patch.splits();
-  const double area_m2 = patch.area_m2 / (static_cast<double>(n) * n);
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n - i; ++j)
-      for (int down = 0; down < (j < n - i - 1 ? 2 : 1); ++down) {
-        const double u = (i + (1.0 + down) / 3.0) / n, v = (j + (1.0 + down) / 3.0) / n;
-        const Vec3 at = (1.0 - u - v) * patch.a + u * patch.b + v * patch.c;
-        const geometry::SurfacePoint nearest = skin.closest_point(at);
-        if (nearest.signed_distance < -depth_m)
-          visit({at, area_m2, -nearest.signed_distance, is_overlapped(skin, at, nearest)});
-      }
+  if (walk.closest_point((patch.a + patch.b + patch.c) / 3.0).signed_distance > patch.longest_m) return;
+  patch.for_each_sample([&](const Vec3& at, double area_m2) {
+    if (walk.least_distance_m(at) > -depth_m) return;
+    const geometry::SurfacePoint nearest = walk.closest_point(at);
+    if (nearest.signed_distance < -depth_m)
+      visit({at, area_m2, -nearest.signed_distance, is_overlapped(skin, at, nearest)});
+  });
 }
 
 ClothInside cloth_inside(const engine::Context& context, const geometry::MeshDistance& skin,
@@ -130,8 +142,9 @@ ClothInside cloth_inside(const engine::Context& context, const geometry::MeshDis
       context, triangles.size(), kJudgeGrain, ClothInside{},
       [&](std::size_t begin, std::size_t end) {
         ClothInside sum;
+        geometry::DistanceWalk walk(skin);
         for (std::size_t t = begin; t < end; ++t)
-          for_each_inside(skin, positions, triangles[t], depth_m, [&](const InsidePoint& point) {
+          for_each_inside(skin, walk, positions, triangles[t], depth_m, [&](const InsidePoint& point) {
             (point.is_overlapped ? sum.overlapped_m2 : sum.shown_m2) += point.area_m2;
           });
         return sum;

@@ -9,6 +9,7 @@
 #include <bodice/collision/collider.hpp>
 #include <bodice/engine/context.hpp>
 #include <bodice/fitting/fit.hpp>
+#include <bodice/geometry/distance_walk.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
@@ -45,11 +46,12 @@ struct InsidePoint {
   bool is_overlapped = false;  ///< it lies in skin that overlaps itself, or its nearest skin is buried there
 };
 
-/// Calls visit for each sample of a triangle, 4 mm apart, that lies deeper than `depth_m` in the skin. Cost:
-/// a signed distance a sample near the skin.
-void for_each_inside(const geometry::MeshDistance& skin, std::span<const geometry::Vec3> positions,
-                     const geometry::Triangle& triangle, double depth_m,
-                     const std::function<void(const InsidePoint&)>& visit);
+/// Calls visit for each sample of a triangle, 4 mm apart, that lies deeper than `depth_m` in the skin. `walk`
+/// is of `skin`; one that was at a triangle nearby costs less than a new one. Cost: a signed distance a
+/// sample that may be so deep by the distance of the one before.
+void for_each_inside(const geometry::MeshDistance& skin, geometry::DistanceWalk& walk,
+                     std::span<const geometry::Vec3> positions, const geometry::Triangle& triangle,
+                     double depth_m, const std::function<void(const InsidePoint&)>& visit);
 
 /// Areas of cloth inside the skin.
 struct ClothInside {
