@@ -61,8 +61,7 @@ TEST_CASE("a walk goes on after points that are absurd") {
   for (const double x : extreme_values()) {
     CAPTURE(x);
     CHECK_FALSE(std::isnan(walk.closest_point({x, 0.0, 0.0}).signed_distance));
-    CHECK(walk.closest_point({0.1, 0.2, 0.3}).signed_distance ==
-          distance.signed_distance({0.1, 0.2, 0.3}));
+    CHECK(walk.closest_point({0.1, 0.2, 0.3}).signed_distance == distance.signed_distance({0.1, 0.2, 0.3}));
   }
   const MeshDistance empty(Context{}, {});
   DistanceWalk nowhere(empty);

@@ -139,8 +139,8 @@ collision::ContactReport resolve_group(const engine::Context& context, const Bod
   const collision::ContactReport report = contact.body->resolve(context, view, options);
   for (std::size_t k = 0; k < group.count; ++k) {
     const std::size_t i = begin + group.lane[k];
-    const Float4 push = {after.x[k] - group.now.x[k], after.y[k] - group.now.y[k], after.z[k] - group.now.z[k],
-                         0.0f};
+    const Float4 push = {after.x[k] - group.now.x[k], after.y[k] - group.now.y[k],
+                         after.z[k] - group.now.z[k], 0.0f};
     motion.along[i] += dot(push, load(motion.by[i]));
     const Float4 by = turned(push, (contact.substep.share.end - 1.0f) * load(motion.turn[i]));
     p.x[i] += by[0], p.y[i] += by[1], p.z[i] += by[2];  // a particle without a push keeps its exact position
@@ -212,8 +212,7 @@ collision::ContactReport resolve_moving(const engine::Context& context, const Bo
                                         Particles& p) {
   Group short_paths, long_paths;
   split_by_path(motion, contact.substep.share, begin, end, p, short_paths, long_paths);
-  collision::ContactReport report =
-      resolve_group(context, contact, false, begin, short_paths, motion, p);
+  collision::ContactReport report = resolve_group(context, contact, false, begin, short_paths, motion, p);
   report.add(resolve_group(context, contact, true, begin, long_paths, motion, p));
   return report;
 }
