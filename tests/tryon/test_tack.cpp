@@ -81,6 +81,28 @@ TEST_CASE("tack: pieces farther apart than the distance are left alone, and a ga
   CHECK(tryon::find_tacks({}, one, 0.1).tacks.empty());
 }
 
+TEST_CASE("tack: a bodice that a few triangles join to its skirt is tacked all around") {
+  constexpr int kAround = 48;
+  const auto dress = [](double gap_m, double aside_m) {  // they overlap by 3 cm
+    geometry::TriMesh bodice = bodice_test::cylinder(0.15, 0.4, kAround, 20, false),
+                      skirt = bodice_test::cylinder(0.15 + gap_m, 0.6, kAround, 30, false);
+    for (Vec3& p : skirt.positions) p += Vec3(aside_m, -0.47, 0.0);
+    geometry::TriMesh mesh = bodice_test::joined(bodice, skirt);
+    mesh.triangles.push_back({1, 0, static_cast<Index>(mesh.positions.size()) - 1});
+    return mesh;
+  };
+  const geometry::TriMesh mesh = dress(0.004, 0.0);
+  const tryon::Tacking tacking = tryon::find_tacks({}, mesh, 0.006);
+  REQUIRE(tacking.pieces.size() == 1);
+  CHECK(tacking.pieces[0].piece == 1);
+  CHECK(tacking.pieces[0].onto == 1);
+  CHECK(tacking.pieces[0].points > 2 * kAround * 9 / 10);
+  for (const cloth::Tack& tack : tacking.tacks)
+    CHECK((mesh.positions[tack.a] - mesh.positions[tack.b]).norm() < 0.04);
+  // A rim that touches another layer on one side alone is no seam.
+  CHECK(tryon::find_tacks({}, dress(0.03, 0.027), 0.006).tacks.empty());
+}
+
 TEST_CASE("tack: a border that touches another piece in a few points only is no seam") {
   geometry::TriMesh mesh;
   add_sheet(0.0, 1.0, 0.0, 20, 10, mesh);

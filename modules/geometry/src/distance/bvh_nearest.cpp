@@ -48,8 +48,9 @@ struct FloatQuery {
 
 /// Tests the triangles of a leaf exactly if floats cannot rule them out, and returns whether one is nearer
 /// than `best`. Most are ruled out, four at a time and without branches.
+template <class Counts>
 bool visit_leaf(const Bvh& bvh, const LeafTriangles& leaf, const FloatQuery& q, float reach2,
-                const Vec3& query, BvhHit& best) {
+                const Vec3& query, const Counts& counts, BvhHit& best) {
   bool nearer = false;
   unsigned near = lane_bits(leaf.distances2(q.p) <= reach2) & ((1u << leaf.count) - 1);
   for (; near != 0; near &= near - 1) {
@@ -57,16 +58,15 @@ bool visit_leaf(const Bvh& bvh, const LeafTriangles& leaf, const FloatQuery& q, 
     const BvhTriangle& t = bvh.triangles[i];
     const TrianglePoint at = closest_point(t.a, t.a + t.ab, t.a + t.ac, query);
     const double distance2 = (at.point - query).squaredNorm();
-    if (!(distance2 < best.distance2)) continue;
+    if (!(distance2 < best.distance2) || !counts(bvh.triangle_of_leaf[i])) continue;
     best = {distance2, i, at};
     nearer = true;
   }
   return nearer;
 }
 
-}  // namespace
-
-BvhHit nearest_triangle(const Bvh& bvh, const Vec3& query, double limit2) {
+template <class Counts>
+BvhHit nearest(const Bvh& bvh, const Vec3& query, double limit2, const Counts& counts) {
   BvhHit best;
   best.distance2 = limit2;
   if (bvh.nodes.empty() || !query.allFinite()) return best;
@@ -79,7 +79,8 @@ BvhHit nearest_triangle(const Bvh& bvh, const Vec3& query, double limit2) {
     const Pending top = stack[--depth];
     if (top.distance2 > reach2) continue;
     if (BvhChild::is_leaf(top.child)) {
-      if (visit_leaf(bvh, bvh.leaf(top.child), q, reach2, query, best)) reach2 = q.reach2(best.distance2);
+      if (visit_leaf(bvh, bvh.leaf(top.child), q, reach2, query, counts, best))
+        reach2 = q.reach2(best.distance2);
       continue;
     }
     const BvhNode& node = bvh.nodes[top.child];
@@ -93,6 +94,17 @@ BvhHit nearest_triangle(const Bvh& bvh, const Vec3& query, double limit2) {
     }
   }
   return best;
+}
+
+}  // namespace
+
+BvhHit nearest_triangle(const Bvh& bvh, const Vec3& query, double limit2) {
+  return nearest(bvh, query, limit2, [](Index) { return true; });
+}
+
+BvhHit nearest_triangle(const Bvh& bvh, const Vec3& query, double limit2,
+                        engine::FunctionRef<bool(Index)> counts) {
+  return nearest(bvh, query, limit2, counts);
 }
 
 }  // namespace bodice::geometry

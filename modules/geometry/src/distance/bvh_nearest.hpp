@@ -2,7 +2,9 @@
 
 #include <limits>
 
+#include <bodice/engine/function_ref.hpp>
 #include <bodice/geometry/triangle.hpp>
+
 #include "distance/bvh.hpp"
 
 namespace bodice::inline v0_1::geometry {
@@ -16,5 +18,8 @@ struct BvhHit {
 /// The closest triangle that is nearer than sqrt(limit2) to a query in the local frame. If there is none,
 /// leaf_triangle stays ~0.
 BvhHit nearest_triangle(const Bvh& bvh, const Vec3& local_query, double limit2);
+/// The same among the triangles of the mesh for which counts(triangle) holds.
+BvhHit nearest_triangle(const Bvh& bvh, const Vec3& local_query, double limit2,
+                        engine::FunctionRef<bool(Index)> counts);
 
 }  // namespace bodice::geometry

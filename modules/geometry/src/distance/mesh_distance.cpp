@@ -67,6 +67,17 @@ struct MeshDistance::Impl {
     return geometry::winding_number(bvh, dipoles, local, kFineFar) > number;
   }
 
+  /// The limit of a search up to a distance: the next double, so that a point exactly there counts.
+  double limit2(double max_distance_m) const {
+    const double reach = max_distance_m / bvh.scale;
+    return std::nextafter(reach * reach, kInfinity);
+  }
+
+  std::optional<SurfacePoint> surface_point_of(const BvhHit& hit) const {
+    if (hit.leaf_triangle == ~0u) return std::nullopt;
+    return surface_point(hit);
+  }
+
   SurfacePoint surface_point(const BvhHit& hit) const {
     SurfacePoint result;
     const BvhTriangle& t = bvh.triangles[hit.leaf_triangle];
@@ -96,12 +107,15 @@ SurfacePoint MeshDistance::closest_point(const Vec3& query) const {
 std::optional<SurfacePoint> MeshDistance::closest_point_within(const Vec3& query,
                                                                double max_distance_m) const {
   if (!(max_distance_m >= 0.0)) return std::nullopt;
-  const double reach = max_distance_m / impl_->bvh.scale;
-  // The limit is the next double, so that a point exactly at the distance counts.
-  const double limit2 = std::nextafter(reach * reach, kInfinity);
-  const BvhHit hit = nearest_triangle(impl_->bvh, impl_->bvh.to_local(query), limit2);
-  if (hit.leaf_triangle == ~0u) return std::nullopt;
-  return impl_->surface_point(hit);
+  return impl_->surface_point_of(
+      nearest_triangle(impl_->bvh, impl_->bvh.to_local(query), impl_->limit2(max_distance_m)));
+}
+
+std::optional<SurfacePoint> MeshDistance::closest_point_within(
+    const Vec3& query, double max_distance_m, engine::FunctionRef<bool(Index)> counts) const {
+  if (!(max_distance_m >= 0.0)) return std::nullopt;
+  return impl_->surface_point_of(
+      nearest_triangle(impl_->bvh, impl_->bvh.to_local(query), impl_->limit2(max_distance_m), counts));
 }
 
 bool MeshDistance::winds_more_than(double number, const Vec3& query) const {

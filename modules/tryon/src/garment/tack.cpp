@@ -1,10 +1,10 @@
 #include <bodice/tryon/tack.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 
 #include <bodice/engine/parallel.hpp>
+#include <bodice/geodesic/distance.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/mesh_edges.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
@@ -19,17 +19,23 @@ constexpr double kSmallPiece = 0.03, kStrap = 0.2;
 // A rim of a larger piece is tacked where this share of it lies on another piece: it is a seam. Where less of
 // it does, layers touch by chance, as a shirt's hem touches the trousers.
 constexpr double kSeam = 0.3;
+// The same share for a rim that lies on its own piece, as a bodice on the skirt that it is joined to in a few
+// points. The hem of a sleeve touches the trunk with less of it.
+constexpr double kOwnSeam = 0.6;
+// A rim lies on its own piece where that is this many times as far along the cloth as it may be across.
+constexpr double kAlongCloth = 5.0;
 constexpr std::size_t kRimGrain = 64;
 
 /// The welded garment, cut into its pieces.
 struct Pieces {
   geometry::TriMesh mesh;
   geometry::Components components;
-  std::vector<Index> input;                  // #V of the mesh: a vertex of the garment
-  std::vector<std::vector<Index>> triangle;  // the triangles of each piece, by number
-  std::vector<std::vector<Index>> rims;      // chains of vertices
+  std::vector<Index> input;              // #V of the mesh: a vertex of the garment
+  std::vector<std::vector<Index>> rims;  // chains of vertices
 
   std::size_t count() const { return components.area.size(); }
+  std::size_t of_vertex(std::size_t v) const { return components.of_vertex[v]; }
+  std::size_t of_triangle(Index t) const { return of_vertex(mesh.triangles[t][0]); }
   bool is_below(double share, std::size_t piece) const {
     return components.area[piece] < share * components.area.front();
   }
@@ -42,51 +48,80 @@ Pieces cut(const geometry::RepairedMesh& welded) {
     const Index w = welded.vertex_of_input[v];
     if (w != geometry::kNoIndex && pieces.input[w] == geometry::kNoIndex) pieces.input[w] = v;
   }
-  pieces.triangle.resize(pieces.count());
-  for (Index t = 0; t < pieces.mesh.triangles.size(); ++t)
-    pieces.triangle[pieces.components.of_vertex[pieces.mesh.triangles[t][0]]].push_back(t);
   pieces.rims = geometry::boundary_loops(pieces.mesh, geometry::mesh_edges(pieces.mesh));
   return pieces;
 }
 
-/// The nearest other piece of a vertex, and its triangle there.
+/// The piece that a vertex lies on, and its triangle there; without a triangle it lies on none.
 struct Nearest {
-  double distance_m = std::numeric_limits<double>::infinity();
   std::size_t piece = 0;
   Index triangle = geometry::kNoIndex;
 };
 
-/// Finds the triangle of another piece on which each vertex that is to be tacked lies.
-std::vector<Nearest> find_nearest(const engine::Context& context, const Pieces& pieces, double within_m) {
-  std::vector<Nearest> nearest(pieces.mesh.positions.size());
-  std::vector<bool> on_rim(nearest.size(), false);
-  for (const std::vector<Index>& rim : pieces.rims)
-    for (const Index v : rim) on_rim[v] = true;
-  for (std::size_t k = 0; k < pieces.count(); ++k) {
-    geometry::TriMesh piece{.positions = pieces.mesh.positions, .triangles = {}};
-    for (const Index t : pieces.triangle[k]) piece.triangles.push_back(pieces.mesh.triangles[t]);
-    const geometry::MeshDistance distance(context, piece);
+/// Finds the triangle on which each vertex that is to be tacked lies: of another piece, or of its own where
+/// that is far along the cloth.
+class NearestLayers {
+ public:
+  NearestLayers(const engine::Context& context, const Pieces& pieces, double within_m)
+      : pieces_(pieces),
+        within_m_(within_m),
+        distance_(context, pieces.mesh),
+        graph_(geodesic::edge_graph(context, pieces.mesh, geometry::mesh_edges(pieces.mesh),
+                                    geodesic::Metric::kEdges)) {}
+
+  std::vector<Nearest> find(const engine::Context& context) const {
+    std::vector<Nearest> nearest(pieces_.mesh.positions.size());
+    std::vector<bool> on_rim(nearest.size(), false);
+    for (const std::vector<Index>& rim : pieces_.rims)
+      for (const Index v : rim) on_rim[v] = true;
     engine::parallel_for(context, nearest.size(), kRimGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) {
-        const std::size_t own = pieces.components.of_vertex[v];
-        if (own == k || !(on_rim[v] || pieces.is_below(kSmallPiece, own))) continue;
-        const auto at = distance.closest_point_within(pieces.mesh.positions[v], within_m);
-        if (at && at->triangle != geometry::kNoIndex && at->signed_distance < nearest[v].distance_m)
-          nearest[v] = {at->signed_distance, k, pieces.triangle[k][at->triangle]};
-      }
+      for (std::size_t v = begin; v < end; ++v)
+        if (on_rim[v] || pieces_.is_below(kSmallPiece, pieces_.of_vertex(v)))
+          nearest[v] = find(static_cast<Index>(v));
     });
+    return nearest;
   }
-  return nearest;
-}
+
+ private:
+  Nearest find(Index v) const {
+    const std::size_t own = pieces_.of_vertex(v);
+    // A small piece or a strap lies on others, and never on itself.
+    const bool has_layers = !pieces_.is_below(kStrap, own);
+    geodesic::Field along;
+    const auto is_far = [&](Index corner) { return along[corner] == geodesic::kUnreachable; };
+    const auto counts = [&](Index t) {
+      if (pieces_.of_triangle(t) != own) return true;
+      if (!has_layers) return false;
+      const geodesic::Seed start{v, 0.0f};
+      if (along.empty())
+        along = geodesic::distances_within(graph_, {&start, 1}, static_cast<float>(kAlongCloth * within_m_));
+      return std::ranges::all_of(pieces_.mesh.triangles[t], is_far);
+    };
+    const auto at = distance_.closest_point_within(pieces_.mesh.positions[v], within_m_, counts);
+    if (!at || at->triangle == geometry::kNoIndex) return {};
+    return {pieces_.of_triangle(at->triangle), at->triangle};
+  }
+
+  const Pieces& pieces_;
+  const double within_m_;
+  geometry::MeshDistance distance_;
+  geodesic::EdgeGraph graph_;
+};
 
 /// Leaves out what touches by chance.
 void keep_seams(const Pieces& pieces, std::vector<Nearest>& nearest) {
   for (const std::vector<Index>& rim : pieces.rims) {
-    if (pieces.is_below(kStrap, pieces.components.of_vertex[rim.front()])) continue;
-    const auto near =
-        std::ranges::count_if(rim, [&](Index v) { return nearest[v].triangle != geometry::kNoIndex; });
-    if (static_cast<double>(near) >= kSeam * static_cast<double>(rim.size())) continue;
-    for (const Index v : rim) nearest[v] = {};
+    const std::size_t own = pieces.of_vertex(rim.front());
+    if (pieces.is_below(kStrap, own)) continue;
+    for (const bool on_own : {false, true}) {
+      const auto counts = [&](Index v) {
+        return nearest[v].triangle != geometry::kNoIndex && (nearest[v].piece == own) == on_own;
+      };
+      const auto near = static_cast<double>(std::ranges::count_if(rim, counts));
+      if (near >= (on_own ? kOwnSeam : kSeam) * static_cast<double>(rim.size())) continue;
+      for (const Index v : rim)
+        if (counts(v)) nearest[v] = {};
+    }
   }
 }
 
@@ -98,15 +133,14 @@ Tacking find_tacks(const engine::Context& context, const geometry::TriMesh& garm
   const auto welded = geometry::repair(context, garment, {.orient = false, .drop_fins = false});
   if (!welded) return tacking;
   const Pieces pieces = cut(*welded);
-  if (pieces.count() < 2) return tacking;
-  std::vector<Nearest> nearest = find_nearest(context, pieces, within_m);
+  std::vector<Nearest> nearest = NearestLayers(context, pieces, within_m).find(context);
   keep_seams(pieces, nearest);
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> points;
   for (std::size_t v = 0; v < nearest.size(); ++v) {
     if (nearest[v].triangle == geometry::kNoIndex) continue;
     for (const Index corner : pieces.mesh.triangles[nearest[v].triangle])
       tacking.tacks.push_back({pieces.input[v], pieces.input[corner]});
-    ++points[{pieces.components.of_vertex[v], nearest[v].piece}];
+    ++points[{pieces.of_vertex(v), nearest[v].piece}];
   }
   for (const auto& [pair, count] : points)
     tacking.pieces.push_back({.piece = pair.first + 1, .onto = pair.second + 1, .points = count});

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <bodice/engine/context.hpp>
+#include <bodice/engine/function_ref.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
 namespace bodice::inline v0_1::geometry {
@@ -34,6 +35,10 @@ class MeshDistance {
   /// The closest point if it is within `max_distance_m`, else nothing. Its distance carries NO sign: it is
   /// never negative. Cost: half that of closest_point().
   std::optional<SurfacePoint> closest_point_within(const Vec3& query, double max_distance_m) const;
+  /// The same among the triangles for which counts(triangle) holds. It is called for those that may be the
+  /// nearest so far, and at least for one that is returned.
+  std::optional<SurfacePoint> closest_point_within(const Vec3& query, double max_distance_m,
+                                                   engine::FunctionRef<bool(Index)> counts) const;
   /// The signed distance alone, at the same cost.
   double signed_distance(const Vec3& query) const { return closest_point(query).signed_distance; }
   /// The generalized winding number: 1 inside a closed mesh that is wound outward, 0 outside.
