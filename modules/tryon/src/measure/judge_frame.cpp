@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
 #include <bodice/engine/parallel.hpp>
+#include <bodice/geometry/sampling.hpp>
 
 namespace bodice::inline v0_1::tryon {
 namespace {
@@ -14,6 +16,7 @@ namespace {
 using geometry::Vec3;
 
 constexpr std::size_t kSamples = 4000;
+constexpr std::uint64_t kSampleSeed = 17;
 constexpr std::size_t kJudgeGrain = 64;
 constexpr double kWrong_m = 1e-3;                    // what counts as missed or false
 constexpr double kOverlap = 1.5;                     // a winding number above it: two layers of the body
@@ -103,14 +106,12 @@ bool is_overlapped(const geometry::MeshDistance& distance, const Vec3& point,
 ProxyError measure_proxy_error(const engine::Context& context, const collision::Collider& collider,
                                const geometry::TriMesh& skin, const geometry::MeshDistance& distance,
                                double within_m) {
-  const std::size_t vertices = skin.positions.size();
-  const std::size_t step = std::max<std::size_t>(1, vertices / kSamples);
-  const std::vector<Vec3> normals = geometry::vertex_normals(skin);
-  std::vector<Sample> samples(vertices / step);
+  const std::vector<geometry::SurfaceSample> on_skin = geometry::sample_surface(skin, kSamples, kSampleSeed);
+  std::vector<Sample> samples(on_skin.size());
   engine::parallel_for(context, samples.size(), kJudgeGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t v = i * step;
-      const Vec3 point = skin.positions[v] + within_m * offset_of(i) * normals[v];
+      const Vec3 normal = geometry::area_vector(skin, on_skin[i].triangle).stableNormalized();
+      const Vec3 point = on_skin[i].point + within_m * offset_of(i) * normal;
       const geometry::SurfacePoint nearest = distance.closest_point(point);
       if (!(std::abs(nearest.signed_distance) <= within_m) || is_overlapped(distance, point, nearest))
         continue;
