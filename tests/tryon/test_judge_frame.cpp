@@ -57,15 +57,16 @@ TEST_CASE("the error of a ball that is too large is the difference of the radii,
 
 TEST_CASE("the error of a proxy is by area, however fine a part of the skin is") {
   const Vec3 coarse(0.0, 1.0, 0.0), fine(1.0, 1.0, 0.0);
-  const geometry::TriMesh skin = bodice_test::joined(bodice_test::icosphere(0.2, 3, coarse),
-                                                     bodice_test::icosphere(0.2, 5, fine));
+  const geometry::TriMesh skin =
+      bodice_test::joined(bodice_test::icosphere(0.2, 3, coarse), bodice_test::icosphere(0.2, 5, fine));
   const geometry::MeshDistance distance({}, skin);
   proxy::BodyProxy::Data data;
   data.stature_m = 1.7;
   for (const auto& [center, radius_m] : {std::pair(coarse, 0.2), std::pair(fine, 0.21)})
     data.ellipsoids.push_back({.shape = {.center = center, .radii = Vec3::Constant(radius_m)}});
   const collision::Collider collider(*proxy::BodyProxy::make(data));
-  // The fine ball is 10 mm off. It has 16 times as many vertices as the coarse one, which is 1 mm off at most.
+  // The fine ball is 10 mm off. It has 16 times as many vertices as the coarse one, which is 1 mm off at
+  // most.
   CHECK(tryon::measure_proxy_error({}, collider, skin, distance, 0.03).error_m.mean ==
         doctest::Approx(0.0052).epsilon(0.05));
 }
