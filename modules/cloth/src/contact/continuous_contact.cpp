@@ -93,41 +93,44 @@ void find_motion(const ContactFrame& frame, std::size_t begin, std::size_t end, 
 
 // Particles of a patch that are resolved together.
 struct Group {
-  std::uint16_t lane[kPatch];  // their places in the patch
-  Moved safe, now;             // where their paths begin, and where they are
+  std::uint32_t particle[kPatch];
+  Moved safe, now;  // where their paths begin, and where they are
   std::size_t count = 0;
   float longest_m = 0.0f;  // the longest of their paths in the substep, relative to the body
 
-  void add(std::size_t of_patch, float length_m) {
-    lane[count++] = static_cast<std::uint16_t>(of_patch);
+  void add(std::size_t i, float length_m) {
+    particle[count++] = static_cast<std::uint32_t>(i);
     longest_m = std::max(longest_m, length_m);
   }
 };
 
-// Splits the particles of a patch by the lengths of their paths in a substep, relative to the body.
-void split_by_path(const BodyMotion& motion, const FrameShare& substep, std::size_t begin, std::size_t end,
-                   const Particles& p, Group& short_paths, Group& long_paths) {
-  for (std::size_t i = begin; i < end; ++i) {
-    const Float4 shift = load(motion.shift[i]);
-    const Float4 from = (1.0f - substep.begin) * shift, to = (1.0f - substep.end) * shift;
-    const Float4 path =
-        Float4{p.x[i] - p.old_x[i], p.y[i] - p.old_y[i], p.z[i] - p.old_z[i], 0.0f} + to - from;
-    const float length_m = std::sqrt(path[0] * path[0] + path[1] * path[1] + path[2] * path[2]);
-    Group& group = length_m > motion.ccd_threshold_m ? long_paths : short_paths;
-    // The collider moves safe positions with the whole frame's motion, so that they are given as before the
-    // frame.
-    if (&group == &long_paths)
-      group.safe.put(group.count, p.old_x[i], p.old_y[i], p.old_z[i], from - load(motion.by[i]));
-    group.now.put(group.count, p.x[i], p.y[i], p.z[i], to);
-    group.add(i - begin, length_m);
-  }
-}
+// The particles of a patch by the lengths of their paths in a substep, relative to the body.
+struct ByPath {
+  Group short_paths, long_paths;
 
-// Resolves a group of the patch that begins at `begin`, with continuous collision from safe positions or by
-// the current positions alone.
+  ByPath(const BodyMotion& motion, const FrameShare& substep, std::size_t begin, std::size_t end,
+         const Particles& p) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Float4 shift = load(motion.shift[i]);
+      const Float4 from = (1.0f - substep.begin) * shift, to = (1.0f - substep.end) * shift;
+      const Float4 path =
+          Float4{p.x[i] - p.old_x[i], p.y[i] - p.old_y[i], p.z[i] - p.old_z[i], 0.0f} + to - from;
+      const float length_m = std::sqrt(path[0] * path[0] + path[1] * path[1] + path[2] * path[2]);
+      Group& group = length_m > motion.ccd_threshold_m ? long_paths : short_paths;
+      // The collider moves safe positions with the whole frame's motion, so that they are given as before
+      // the frame.
+      if (&group == &long_paths)
+        group.safe.put(group.count, p.old_x[i], p.old_y[i], p.old_z[i], from - load(motion.by[i]));
+      group.now.put(group.count, p.x[i], p.y[i], p.z[i], to);
+      group.add(i, length_m);
+    }
+  }
+};
+
+// Resolves a group with continuous collision from safe positions, or by the current positions alone.
 collision::ContactReport resolve_group(const engine::Context& context, const BodyContact& contact,
-                                       bool continuous, std::size_t begin, const Group& group,
-                                       BodyMotion& motion, Particles& p) {
+                                       bool continuous, const Group& group, BodyMotion& motion,
+                                       Particles& p) {
   if (group.count == 0) return {};
   Moved after = group.now;
   collision::Particles view{.count = group.count, .x = after.x, .y = after.y, .z = after.z};
@@ -138,7 +141,7 @@ collision::ContactReport resolve_group(const engine::Context& context, const Bod
     options.max_push_m += group.longest_m;
   const collision::ContactReport report = contact.body->resolve(context, view, options);
   for (std::size_t k = 0; k < group.count; ++k) {
-    const std::size_t i = begin + group.lane[k];
+    const std::size_t i = group.particle[k];
     const Float4 push = {after.x[k] - group.now.x[k], after.y[k] - group.now.y[k],
                          after.z[k] - group.now.z[k], 0.0f};
     motion.along[i] += dot(push, load(motion.by[i]));
@@ -210,10 +213,9 @@ void forget_owners(BodyMotion& motion) {
 collision::ContactReport resolve_moving(const engine::Context& context, const BodyContact& contact,
                                         BodyMotion& motion, std::size_t begin, std::size_t end,
                                         Particles& p) {
-  Group short_paths, long_paths;
-  split_by_path(motion, contact.substep.share, begin, end, p, short_paths, long_paths);
-  collision::ContactReport report = resolve_group(context, contact, false, begin, short_paths, motion, p);
-  report.add(resolve_group(context, contact, true, begin, long_paths, motion, p));
+  const ByPath paths(motion, contact.substep.share, begin, end, p);
+  collision::ContactReport report = resolve_group(context, contact, false, paths.short_paths, motion, p);
+  report.add(resolve_group(context, contact, true, paths.long_paths, motion, p));
   return report;
 }
 

@@ -16,14 +16,16 @@ struct Pending {
 // infinite.
 constexpr float kKeepAll = 3e38f;
 
-/// A query in single precision. Its distances to boxes and triangles, less the slack, never exceed the true
+/// A query, exact and in floats. Distances of the latter to boxes and triangles, less the slack, never exceed the true
 /// ones.
 struct FloatQuery {
+  Vec3 exact;
   std::array<float, 3> p;
   double slack;  // local units: what rounding the query and the arithmetic may add to a distance
 
   explicit FloatQuery(const Vec3& q)
-      : p{clamped(q[0]), clamped(q[1]), clamped(q[2])},
+      : exact(q),
+        p{clamped(q[0]), clamped(q[1]), clamped(q[2])},
         slack(LeafTriangles::kSlack * (q.cwiseAbs().maxCoeff() + 1.0)) {}
 
   /// Bounds coordinates so that squares stay finite. At such distances the slack keeps every box.
@@ -50,14 +52,14 @@ struct FloatQuery {
 /// than `best`. Most are ruled out, four at a time and without branches.
 template <class Counts>
 bool visit_leaf(const Bvh& bvh, const LeafTriangles& leaf, const FloatQuery& q, float reach2,
-                const Vec3& query, const Counts& counts, BvhHit& best) {
+                const Counts& counts, BvhHit& best) {
   bool nearer = false;
   unsigned near = lane_bits(leaf.distances2(q.p) <= reach2) & ((1u << leaf.count) - 1);
   for (; near != 0; near &= near - 1) {
     const std::uint32_t i = leaf.first + static_cast<std::uint32_t>(std::countr_zero(near));
     const BvhTriangle& t = bvh.triangles[i];
-    const TrianglePoint at = closest_point(t.a, t.a + t.ab, t.a + t.ac, query);
-    const double distance2 = (at.point - query).squaredNorm();
+    const TrianglePoint at = closest_point(t.a, t.a + t.ab, t.a + t.ac, q.exact);
+    const double distance2 = (at.point - q.exact).squaredNorm();
     if (!(distance2 < best.distance2) || !counts(bvh.triangle_of_leaf[i])) continue;
     best = {distance2, i, at};
     nearer = true;
@@ -79,8 +81,7 @@ BvhHit nearest(const Bvh& bvh, const Vec3& query, double limit2, const Counts& c
     const Pending top = stack[--depth];
     if (top.distance2 > reach2) continue;
     if (BvhChild::is_leaf(top.child)) {
-      if (visit_leaf(bvh, bvh.leaf(top.child), q, reach2, query, counts, best))
-        reach2 = q.reach2(best.distance2);
+      if (visit_leaf(bvh, bvh.leaf(top.child), q, reach2, counts, best)) reach2 = q.reach2(best.distance2);
       continue;
     }
     const BvhNode& node = bvh.nodes[top.child];

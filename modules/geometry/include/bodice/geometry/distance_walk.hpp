@@ -20,8 +20,8 @@ class DistanceWalk {
   SurfacePoint closest_point(const Vec3& query);
 
   /// A lower bound on the signed distance at a point, by that of the last one: no distance falls by more than
-  /// the way. Minus infinity before the first point, and for meshes that are not closed, where a sign may
-  /// change without a surface.
+  /// the point moves. Minus infinity before the first point, and for meshes that are not closed, where a sign
+  /// may change without a surface.
   double least_distance_m(const Vec3& query) const;
 
  private:
