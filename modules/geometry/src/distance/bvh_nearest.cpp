@@ -16,8 +16,8 @@ struct Pending {
 // infinite.
 constexpr float kKeepAll = 3e38f;
 
-/// A query, exact and in floats. Distances of the latter to boxes and triangles, less the slack, never exceed the true
-/// ones.
+/// A query, exact and in floats. Distances of the latter to boxes and triangles, less the slack, never exceed
+/// the true ones.
 struct FloatQuery {
   Vec3 exact;
   std::array<float, 3> p;
