@@ -103,6 +103,16 @@ TEST_CASE("tack: a bodice that a few triangles join to its skirt is tacked all a
   CHECK(tryon::find_tacks({}, dress(0.03, 0.027), 0.006).tacks.empty());
 }
 
+TEST_CASE("tack: the rim of a collar that is folded down is no seam") {
+  // A tube, of which the upper third is folded outward and down over the rest.
+  geometry::TriMesh mesh = bodice_test::cylinder(0.15, 0.6, 48, 60, false);
+  for (Vec3& p : mesh.positions) {
+    if (p.y() <= 0.1) continue;
+    p = Vec3(p.x() * 0.154 / 0.15, 0.2 - p.y(), p.z() * 0.154 / 0.15);
+  }
+  CHECK(tryon::find_tacks({}, mesh, 0.006).tacks.empty());
+}
+
 TEST_CASE("tack: a border that touches another piece in a few points only is no seam") {
   geometry::TriMesh mesh;
   add_sheet(0.0, 1.0, 0.0, 20, 10, mesh);

@@ -22,8 +22,9 @@ constexpr double kSeam = 0.3;
 // The same share for a rim that lies on its own piece, as a bodice on the skirt that it is joined to in a few
 // points. The hem of a sleeve touches the trunk with less of it.
 constexpr double kOwnSeam = 0.6;
-// A rim lies on its own piece where that is this many times as far along the cloth as it may be across.
-constexpr double kAlongCloth = 5.0;
+// A rim lies on its own piece where that is this many times as far along the cloth as it may be across, and
+// ends in a rim that is at most kOverlapWidth times as far away as that. Below a collar no layer ends.
+constexpr double kAlongCloth = 5.0, kOverlapWidth = 8.0;
 constexpr std::size_t kRimGrain = 64;
 
 /// The welded garment, cut into its pieces.
@@ -88,18 +89,37 @@ class NearestLayers {
     // A small piece or a strap lies on others, and never on itself.
     const bool has_layers = !pieces_.is_below(kStrap, own);
     geodesic::Field along;
-    const auto is_far = [&](Index corner) { return along[corner] == geodesic::kUnreachable; };
     const auto counts = [&](Index t) {
       if (pieces_.of_triangle(t) != own) return true;
       if (!has_layers) return false;
-      const geodesic::Seed start{v, 0.0f};
-      if (along.empty())
-        along = geodesic::distances_within(graph_, {&start, 1}, static_cast<float>(kAlongCloth * within_m_));
-      return std::ranges::all_of(pieces_.mesh.triangles[t], is_far);
+      if (along.empty()) along = near_along_cloth(v, kAlongCloth * within_m_);
+      return std::ranges::all_of(pieces_.mesh.triangles[t], [&](Index c) { return is_far(along, c); });
     };
     const auto at = distance_.closest_point_within(pieces_.mesh.positions[v], within_m_, counts);
     if (!at || at->triangle == geometry::kNoIndex) return {};
-    return {pieces_.of_triangle(at->triangle), at->triangle};
+    const std::size_t onto = pieces_.of_triangle(at->triangle);
+    if (onto == own && !other_layer_ends_near(v)) return {};
+    return {onto, at->triangle};
+  }
+
+  static bool is_far(const geodesic::Field& along, Index v) { return along[v] == geodesic::kUnreachable; }
+
+  geodesic::Field near_along_cloth(Index v, double within_m) const {
+    const geodesic::Seed start{v, 0.0f};
+    return geodesic::distances_within(graph_, {&start, 1}, static_cast<float>(within_m));
+  }
+
+  /// Whether another layer of the piece ends near a vertex of its rim: there is a rim that is twice as far
+  /// along the cloth.
+  bool other_layer_ends_near(Index v) const {
+    const double overlap_m = kOverlapWidth * within_m_;
+    const geodesic::Field along = near_along_cloth(v, 2.0 * overlap_m);
+    const auto is_other_end = [&](Index other) {
+      return pieces_.of_vertex(other) == pieces_.of_vertex(v) && is_far(along, other) &&
+             (pieces_.mesh.positions[other] - pieces_.mesh.positions[v]).norm() <= overlap_m;
+    };
+    return std::ranges::any_of(
+        pieces_.rims, [&](const std::vector<Index>& rim) { return std::ranges::any_of(rim, is_other_end); });
   }
 
   const Pieces& pieces_;

@@ -30,7 +30,7 @@ struct Tacking {
 /// Finds where pieces of a garment lie within `within_m` of another one. The rim of a piece is tacked to the
 /// triangle that each of its vertices is nearest to, and a small piece, such as a button, at all its
 /// vertices. Large pieces are tacked only at seams: rims that lie on another piece for a third of their
-/// length, or on another layer of their own piece, five times as far along the cloth, for three fifths.
+/// length, or on another layer of their own piece that ends there, too, for three fifths.
 /// Nothing is tacked with a distance of 0. Deterministic. Cost: a closest point for each vertex of a rim,
 /// microseconds, and the distances along the cloth near it.
 Tacking find_tacks(const engine::Context& context, const geometry::TriMesh& garment, double within_m);
