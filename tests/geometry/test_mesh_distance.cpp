@@ -140,6 +140,24 @@ TEST_CASE("distance and sign agree with brute force where surfaces overlap, nest
   check_against_brute_force(sheet(1.0, 2.0, 5, 7), 150);
 }
 
+TEST_CASE("the closest point among some triangles is that of a mesh of these alone") {
+  const TriMesh mesh = torus(1.0, 0.3, 40, 20);
+  const MeshDistance distance(Context{}, mesh);
+  const auto counts = [](Index t) { return t % 7 == 3; };
+  TriMesh some{.positions = mesh.positions, .triangles = {}};
+  for (Index t = 0; t < mesh.triangles.size(); ++t)
+    if (counts(t)) some.triangles.push_back(mesh.triangles[t]);
+  for (const Vec3& query : queries_around(mesh, 100, 29)) {
+    const double truth = brute_distance(some, query);
+    const auto found = distance.closest_point_within(query, 1e3, counts);
+    REQUIRE(found);
+    CHECK(counts(found->triangle));
+    CHECK(found->signed_distance == doctest::Approx(truth).epsilon(1e-12));
+    CHECK_FALSE(distance.closest_point_within(query, truth * (1.0 - 1e-9) - 1e-12, counts));
+  }
+  CHECK_FALSE(distance.closest_point_within(Vec3::Zero(), 1e3, [](Index) { return false; }));
+}
+
 TEST_CASE("the extremes: every usable hostile mesh after repair, and no crash before") {
   for (const MeshCase& extreme : extreme_meshes()) {
     CAPTURE(extreme.name);

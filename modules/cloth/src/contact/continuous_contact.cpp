@@ -208,8 +208,8 @@ void forget_owners(BodyMotion& motion) {
   std::ranges::fill(motion.owner, collision::kNoEllipsoid);
 }
 
-// Continuous collision costs a hundred times what a push from the current position does, and gives the same
-// side unless the particle passed through the body. So it is used for long paths only.
+// Continuous collision costs much more than a push from the current position, and gives the same side unless
+// the particle passed through the body. So it is used for long paths only.
 collision::ContactReport resolve_moving(const engine::Context& context, const BodyContact& contact,
                                         BodyMotion& motion, std::size_t begin, std::size_t end,
                                         Particles& p) {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <span>
 
+#include <bodice/engine/random.hpp>
+
 #include "distance/bvh.hpp"
 #include "distance/bvh_nearest.hpp"
 #include "distance/winding.hpp"
@@ -24,15 +26,6 @@ constexpr FloatPass kFloatPasses[] = {{kCoarseFar, 0.15}, {kFineFar, 2e-3}};
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Bits that look random, of 64 bits. Based on: Guy L. Steele Jr., Doug Lea, Christine H. Flood. Fast
-// Splittable Pseudorandom Number Generators. 2014. - the mixing function of SplitMix64
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
 // Whether the border of these triangles is empty. Each edge adds a number of its own, with the sign of its
 // direction. A sum of zero that is not an empty border has a chance of 2^-64.
 bool is_without_border(const TriMesh& mesh, std::span<const Index> triangles) {
@@ -40,8 +33,8 @@ bool is_without_border(const TriMesh& mesh, std::span<const Index> triangles) {
   for (const Index k : triangles)
     for (int c = 0; c < 3; ++c) {
       const std::uint64_t a = mesh.triangles[k][c], b = mesh.triangles[k][(c + 1) % 3];
-      if (a < b) sum += mixed(a << 32 | b);
-      if (a > b) sum -= mixed(b << 32 | a);
+      if (a < b) sum += engine::mix64(a << 32 | b);
+      if (a > b) sum -= engine::mix64(b << 32 | a);
     }
   return sum == 0;
 }

@@ -10,8 +10,8 @@ namespace bodice::inline v0_1::geometry {
 /// Gives the distances that MeshDistance::closest_point() does. The ball around a point up to its closest
 /// surface holds no surface. So two points have the same sign where their balls overlap, and the distance to
 /// the last point limits the search for the next. Between triangles that are equally near, another one may be
-/// chosen. Cost: a third of closest_point() where steps are no longer than distances, a little more than it
-/// elsewhere. The mesh must outlive the walk. One walk serves one thread.
+/// chosen. Cost: a search within the bound, and a winding number where balls do not overlap or the mesh is
+/// not closed. The mesh must outlive the walk. One walk serves one thread.
 class DistanceWalk {
  public:
   explicit DistanceWalk(const MeshDistance& mesh) : mesh_(&mesh) {}
