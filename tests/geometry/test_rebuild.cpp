@@ -56,3 +56,12 @@ TEST_CASE("parts that are thinner than a cell are rebuilt, and a floor that the 
   CHECK(box.high.x() < 1.2);
   CHECK(box.low.x() > -1.2);
 }
+
+TEST_CASE("the end of a piece that is tucked into another one is covered, not lost") {
+  TriMesh tucked = bodice_test::icosphere(0.3, 3);
+  for (Vec3& p : tucked.positions) p.x() += 0.9;  // reaches .4 into the ball
+  const RebuiltSurface rebuilt =
+      rebuild({}, bodice_test::joined(bodice_test::icosphere(1.0, 4), tucked), 0.05);
+  REQUIRE_FALSE(rebuilt.mesh.empty());
+  CHECK(rebuilt.lost_share == 0.0);
+}

@@ -81,6 +81,12 @@ std::vector<char> find_lost(const engine::Context& context, const TriMesh& data,
   return lost;
 }
 
+/// Unmarks triangles inside of the surface: ends of pieces that are tucked into others are covered.
+void keep_outside(const TriMesh& data, const MeshDistance& surface, std::vector<char>& lost) {
+  for (std::size_t t = 0; t < lost.size(); ++t)
+    if (lost[t]) lost[t] = !surface.inside((data.corner(t, 0) + data.corner(t, 1) + data.corner(t, 2)) / 3.0);
+}
+
 double share_of(const std::vector<char>& chosen, const TriMesh& mesh) {
   double all = 0.0, sum = 0.0;
   for (std::size_t t = 0; t < chosen.size(); ++t) {
@@ -187,8 +193,9 @@ RebuiltSurface rebuild(const engine::Context& context, const TriMesh& surface, d
   snap(context, data, kMeasuredCells * cell_m, out);
   smooth_made_up(out);
   out.measured_share = measured_share(out);
-  out.lost_share =
-      share_of(find_lost(context, surface, out.mesh, kLostFrom * cell_m, kLostUpTo * cell_m), surface);
+  std::vector<char> lost = find_lost(context, surface, out.mesh, kLostFrom * cell_m, kLostUpTo * cell_m);
+  keep_outside(surface, MeshDistance(context, out.mesh), lost);
+  out.lost_share = share_of(lost, surface);
   return out;
 }
 

@@ -13,6 +13,7 @@
 
 #include "repair/quadric.hpp"
 #include "repair/rings.hpp"
+#include "repair/smooth_normals.hpp"
 
 namespace bodice::inline v0_1::geometry {
 namespace {
@@ -28,28 +29,8 @@ constexpr double kAgree = 1.7;
 constexpr double kFollows = 1.1, kFollowsBy = 2.0;
 /// Quadrics with normals farther off a vertex' normal than this cosine do not count for it.
 constexpr double kAlong = 0.7;
-/// Rings over which normals are averaged.
-constexpr int kNormalRings = 2;
-constexpr std::size_t kNormalGrain = 4096;
 /// Blocks of vertices: each has memory for all vertices.
 constexpr std::size_t kBlocks = 32;
-
-/// Normals averaged over rings of neighbors.
-std::vector<Vec3> smooth_normals(const engine::Context& context, const TriMesh& mesh,
-                                 const Neighbors& neighbors) {
-  std::vector<Vec3> normals = vertex_normals(mesh), next(normals.size());
-  for (int pass = 0; pass < kNormalRings; ++pass) {
-    engine::parallel_for(context, normals.size(), kNormalGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) {
-        Vec3 sum = normals[v];
-        for (const Index other : neighbors.of(v)) sum += normals[other];
-        next[v] = sum.normalized();
-      }
-    });
-    normals.swap(next);
-  }
-  return normals;
-}
 
 /// The range that a height lies in, as the fits so far have it.
 struct HeightRange {

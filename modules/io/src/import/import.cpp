@@ -3,6 +3,7 @@
 #include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/stage_timer.hpp>
+#include <bodice/geometry/folds.hpp>
 #include <bodice/geometry/noise.hpp>
 #include <bodice/io/import.hpp>
 #include <bodice/io/rig.hpp>
@@ -47,7 +48,11 @@ void check_precision(const geometry::TriMesh& shape, bool kept_digits, ImportedM
                           "Move it near the origin before exporting, or export it as OBJ."});
 }
 
-/// Smooths noise and thins what is too fine, as the options want it. Returns the noise, in the mesh's unit.
+/// Skins with folds at more than this share of the vertices are evened out; clean ones have .01.
+constexpr double kFolded = 0.03;
+
+/// Smooths noise and thins what is too fine, as the options want it, and evens out folded triangles. Returns
+/// the noise, in the mesh's unit.
 engine::Result<double> refine_scan(const engine::Context& context, const ImportOptions& options,
                                    geometry::RepairedMesh& scan, std::vector<engine::Warning>& warnings) {
   return engine::catch_canceled("The smoothing of noise", [&]() -> engine::Result<double> {
@@ -57,6 +62,8 @@ engine::Result<double> refine_scan(const engine::Context& context, const ImportO
       warnings.push_back(thin_skin(context, noise, scan));
     else if (smooths)
       scan.mesh.positions = geometry::without_noise(context, scan.mesh, noise);
+    if (noisy == smooths && geometry::folded_share(scan.mesh) > kFolded)
+      scan.mesh.positions = geometry::without_folds(context, scan.mesh);
     return noise;
   });
 }
@@ -65,11 +72,11 @@ void warn_of_noise(ImportedMesh& out) {
   if (!(out.noise_m > 0.0)) return;
   const std::string size = engine::message("The skin has noise of ", 1e3 * out.noise_m, " mm");
   if (out.smoothed)
-    out.warnings.push_back({"noise-smoothed", out.mesh,
-                            size + ", which was smoothed; accuracy counts from the smooth skin.",
-                            "To fit the noise as well, keep it (program: --keep-noise)."});
+    out.warnings.push_back(engine::note("noise-smoothed", out.mesh,
+                                        size + ", which was smoothed; accuracy counts from the smooth skin.",
+                                        "To fit the noise as well, keep it (program: --keep-noise)."));
   else
-    out.warnings.push_back({"noise-kept", out.mesh, size + ", which was kept.", ""});
+    out.warnings.push_back(engine::note("noise-kept", out.mesh, size + ", which was kept.", ""));
 }
 
 void to_inside(const geometry::Frame& frame, geometry::TriMesh& mesh) {
