@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include <bodice/fitting/fit.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
@@ -52,30 +51,6 @@ Cover cover(const TriMesh& skin, const TriMesh& other) {
       away += area;
   }
   return all > 0.0 ? Cover{away / all, sum / std::max(all - away, 1e-300)} : Cover{1.0, 0.0};
-}
-
-/// Warnings that do not doubt the result: they count what was found, or speak of unit and position.
-bool is_doubt(const bodice::engine::Warning& warning) {
-  static const std::set<std::string> kNoDoubts = {"holes",
-                                                  "open-edges",
-                                                  "extra-pieces",
-                                                  "pieces-left-out",
-                                                  "body-joined",
-                                                  "non-manifold-edges",
-                                                  "fins",
-                                                  "unit-contradicted",
-                                                  "flat-triangles",
-                                                  "duplicate-triangles",
-                                                  "broken-triangles",
-                                                  "flipped-triangles",
-                                                  "far-from-origin",
-                                                  "skin-touches",
-                                                  "noise-smoothed",
-                                                  "skin-thinned"};
-  // A rebuilt skin is in doubt where a good part of it is made up, one that was cut where more than webs
-  // were: only then the warning has a remedy.
-  if (warning.code == "skin-rebuilt" || warning.code == "limbs-cut") return !warning.remedy.empty();
-  return !kNoDoubts.contains(warning.code);
 }
 
 bodice::anatomy::Options profile() {
@@ -137,8 +112,8 @@ Judged judge(const Scan& scan, const std::filesystem::path& file, bool with_prox
   if (!read) return judged.text = read.error().sentence(), judged;
   bool doubted = false;
   for (const auto& warning : read->warnings) {
-    doubted |= is_doubt(warning);
-    judged.text += (judged.text.empty() ? "" : " ") + warning.code;
+    doubted |= !warning.note;
+    judged.text += (judged.text.empty() ? "" : " ") + warning.code + (warning.note ? "" : "!");
   }
   const bodice::geometry::Frame frame = read->input.frame;
   const auto to_truth = [&](Vec3& p) { p = scan.frame.to_inside(frame.to_file(p)); };

@@ -114,7 +114,8 @@ TEST_CASE("of two people beside each other the file's first is taken, and the ot
   REQUIRE(other.ok());
   CHECK(vertex_distance(first->skin, figure()) < 1e-6);
   CHECK(vertex_distance(other->skin, second) < 1e-6);
-  CHECK(find(*first, "several-people"));
+  REQUIRE(find(*first, "several-people"));
+  CHECK(find(*first, "several-people")->note);
   const auto third = io::import_body(kContext, file, {.person = 3});
   REQUIRE(!third.ok());
   CHECK(third.error().code == engine::ErrorCode::kNotFound);

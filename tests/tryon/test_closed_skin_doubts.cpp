@@ -49,12 +49,24 @@ TEST_CASE("a landmark is in doubt where much of the skin around it is made up, s
   CHECK(closed.codes().empty());
   closed.make_up(0.001);  // nearly a half of the disk of 60 mm around the perineum
   CHECK(closed.codes() == "landmarks-made-up ");
+  CHECK(closed.warnings[0].note);
   CHECK(closed.warnings[0].message.find("perineum") != std::string::npos);
   CHECK(closed.warnings[0].message.find("knee") == std::string::npos);
   closed.make_up(0.024);  // a quarter of it
   CHECK(closed.codes().empty());
   closed.anatomy.landmarks[kPerineum].confidence = 0.5;
   CHECK(closed.codes() == "landmarks-made-up ");
+}
+
+TEST_CASE("a landmark of which all is made up, or of a body with landmarks in doubt, may be wrong") {
+  Closed closed;
+  closed.make_up(-0.03);  // three quarters of the disk
+  REQUIRE(closed.codes() == "landmarks-made-up ");
+  CHECK_FALSE(closed.warnings[0].note);
+  closed.make_up(0.001);
+  closed.anatomy.warnings = {{"perineum-uncertain", "", "", ""}};
+  REQUIRE(closed.codes() == "landmarks-made-up ");
+  CHECK_FALSE(closed.warnings[0].note);
 }
 
 TEST_CASE("a hand that is shorter than the other one is in doubt where the skin was closed") {

@@ -78,7 +78,9 @@ std::string packed_ellipsoids(std::span<const geometry::Ellipsoid> shapes) {
 Json json_of(const std::vector<engine::Warning>& warnings) {
   Json list = Json::array();
   for (const engine::Warning& w : warnings)
-    list.push_back({{"code", w.code}, {"part", w.part}, {"text", w.message + " " + w.remedy}});
+    list.push_back({{"code", w.code},
+                    {"part", w.part},
+                    {"text", (w.note ? "Note: " : "") + w.message + " " + w.remedy}});
   return list;
 }
 

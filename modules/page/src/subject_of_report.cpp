@@ -87,8 +87,8 @@ engine::Result<PageSubject> subject_of_report(const std::string& report, const s
   subject.gap_p95_mm = number_if_there(at(gap, "p95"));
   subject.landmarks = landmarks_of(read);
   for (const json& w : at(read, "warnings"))
-    subject.warnings.push_back(
-        {text(at(w, "code")), text(at(w, "part")), text(at(w, "message")), text(at(w, "remedy"))});
+    subject.warnings.push_back({text(at(w, "code")), text(at(w, "part")), text(at(w, "message")),
+                                text(at(w, "remedy")), at(w, "note") == json(true)});
   for (const json& s : at(read, "stages"))
     subject.stages.push_back({text(at(s, "name")), number(at(s, "ms"))});
   if (at(read, "drape").is_object()) subject.drape = curves_of(at(read, "drape"));

@@ -91,13 +91,24 @@ class [[nodiscard]] Result<void> {
   bool ok_ = true;
 };
 
-/// A soft failure: the work went on, and the warning states what was dropped or repaired and the remedy.
+/// The work went on; the warning states what was dropped, repaired or doubtful, and the remedy.
 struct Warning {
   std::string code;     ///< Stable, kebab-case: "hands-fused-to-thighs".
   std::string part;     ///< The body part, mesh or element concerned; may be empty.
   std::string message;  ///< One sentence.
   std::string remedy;   ///< One sentence; may be empty.
+  /// A statement of what was done or found: nothing puts the result in doubt. False: the result may be wrong.
+  bool note = false;
+
+  std::string sentence() const {
+    return (note ? "Note: " : "") + message + (remedy.empty() ? "" : " " + remedy);
+  }
 };
+
+/// A warning that is a statement alone.
+inline Warning note(std::string code, std::string part, std::string message, std::string remedy) {
+  return {std::move(code), std::move(part), std::move(message), std::move(remedy), true};
+}
 
 /// The time that a named stage took. Lists of them are in the order in which the stages ended.
 struct StageTime {

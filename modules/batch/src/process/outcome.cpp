@@ -59,7 +59,8 @@ Outcome outcome_from(const json& j) {
 json json_of(const JobFacts& facts) {
   json warnings = json::array();
   for (const engine::Warning& w : facts.warnings)
-    warnings.push_back({{"code", w.code}, {"part", w.part}, {"message", w.message}, {"remedy", w.remedy}});
+    warnings.push_back(
+        {{"code", w.code}, {"part", w.part}, {"message", w.message}, {"remedy", w.remedy}, {"note", w.note}});
   json numbers = json::object();
   for (const auto& [key, value] : facts.numbers) numbers[key] = value;
   return {{"seed", facts.seed}, {"warnings", std::move(warnings)}, {"numbers", std::move(numbers)}};

@@ -113,7 +113,7 @@ bodice_status bodice_drape(const bodice_context* context, const bodice_skin* ski
     auto draped = tryon::drape(progress.context(), body, worn, wanted);
     if (!draped) return draped.error();
     for (const engine::Warning& warning : draped->report.warnings)
-      progress.context().warn(warning.message + " " + warning.remedy);
+      progress.context().warn(warning.sentence());
     if (to) write_end(draped->garments, to);
     return capi::write(as_c(draped->report), report, true);
   });

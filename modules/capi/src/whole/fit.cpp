@@ -84,8 +84,7 @@ Outcome make_fit(Progress& progress, const tryon::SegmentedSkin& skin, const fit
   if (!bind) copy.rig = nullptr;
   auto body = tryon::fit_bound_proxy(context, std::move(copy), given);
   if (!body) return body.error();
-  for (const engine::Warning& warning : body->fit.warnings)
-    context.warn(warning.message + " " + warning.remedy);
+  for (const engine::Warning& warning : body->fit.warnings) context.warn(warning.sentence());
   out.report = as_c(body->fit, 1e-9 * static_cast<double>(context.clock->now_ns() - begin));
   out.proxy = std::move(body->fit.proxy);
   return {};

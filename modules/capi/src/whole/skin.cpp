@@ -14,8 +14,7 @@ using capi::Outcome;
 
 bodice_skin::bodice_skin(capi::SharedContext shared, tryon::SegmentedSkin made)
     : context(std::move(shared)), skin(std::move(made)) {
-  for (const engine::Warning& warning : skin.warnings)
-    warnings.push_back(warning.remedy.empty() ? warning.message : warning.message + " " + warning.remedy);
+  for (const engine::Warning& warning : skin.warnings) warnings.push_back(warning.sentence());
 }
 
 namespace bodice::inline v0_1::capi {

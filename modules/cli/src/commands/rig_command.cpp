@@ -98,8 +98,8 @@ void print_summary(const RiggedSkin& skin) {
     std::printf("\n");
   }
   for (const engine::Warning& w : skin.found.warnings)
-    std::printf("warning     %s%s%s%s%s\n", w.part.c_str(), w.part.empty() ? "" : ": ", w.message.c_str(),
-                w.remedy.empty() ? "" : " ", w.remedy.c_str());
+    std::printf("%-11s %s%s%s%s%s\n", w.note ? "note" : "warning", w.part.c_str(), w.part.empty() ? "" : ": ",
+                w.message.c_str(), w.remedy.empty() ? "" : " ", w.remedy.c_str());
 }
 
 engine::Result<void> make_rigged_file(const RigCommand& command) {

@@ -85,7 +85,7 @@ void add_drape(std::string& text, const tryon::DrapeReport& d) {
 
 void add_warnings(std::string& text, std::span<const engine::Warning> warnings) {
   for (const engine::Warning& w : warnings)
-    text += "warning     " + (w.part.empty() ? "" : w.part + ": ") + w.message +
+    text += (w.note ? "note        " : "warning     ") + (w.part.empty() ? "" : w.part + ": ") + w.message +
             (w.remedy.empty() ? "" : " " + w.remedy) + "\n";
 }
 

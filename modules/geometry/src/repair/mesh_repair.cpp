@@ -192,20 +192,24 @@ class Repair {
     auto add = [&](std::size_t count, const char* code, const char* what, const char* remedy) {
       if (count > 0) out_.report.warnings.push_back({code, "", std::to_string(count) + " " + what, remedy});
     };
+    const auto note = [&](std::size_t count, const char* code, const char* what, const char* remedy) {
+      add(count, code, what, remedy);
+      if (count > 0) out_.report.warnings.back().note = true;
+    };
     add(counts_.bad_vertices, "non-finite-vertices",
         "vertices have NaN, infinite or absurd coordinates and were dropped.",
         "Export the mesh again without them.");
-    add(counts_.bad_triangles, "broken-triangles", "triangles were dropped with vertices they refer to.",
-        "Export the mesh again; the skin may have holes there.");
-    add(counts_.flat, "flat-triangles", "triangles without area were dropped.", "");
-    add(counts_.duplicate, "duplicate-triangles", "triangles repeated another and were dropped.", "");
-    add(counts_.fins, "fins", "triangles stuck out of the skin as fins and were dropped.", "");
-    add(out_.report.flipped_triangles, "flipped-triangles", "triangles faced inward and were turned.", "");
-    add(out_.report.boundary_edges, "open-edges",
-        "edges have a triangle on one side only: the surface has holes.",
-        "Close the holes for exact distances next to them.");
-    add(out_.report.non_manifold_edges, "non-manifold-edges", "edges have three or more triangles.",
-        "Remove inner faces.");
+    note(counts_.bad_triangles, "broken-triangles", "triangles were dropped with vertices they refer to.",
+         "Export the mesh again; the skin may have holes there.");
+    note(counts_.flat, "flat-triangles", "triangles without area were dropped.", "");
+    note(counts_.duplicate, "duplicate-triangles", "triangles repeated another and were dropped.", "");
+    note(counts_.fins, "fins", "triangles stuck out of the skin as fins and were dropped.", "");
+    note(out_.report.flipped_triangles, "flipped-triangles", "triangles faced inward and were turned.", "");
+    note(out_.report.boundary_edges, "open-edges",
+         "edges have a triangle on one side only: the surface has holes.",
+         "Close the holes for exact distances next to them.");
+    note(out_.report.non_manifold_edges, "non-manifold-edges", "edges have three or more triangles.",
+         "Remove inner faces.");
     add(conflicts_, "not-orientable", "edges join triangles that cannot be wound consistently.",
         "Separate the two sides of the surface there.");
   }

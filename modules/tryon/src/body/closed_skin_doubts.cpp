@@ -16,6 +16,9 @@ using geometry::Vec3;
 constexpr double kAround = 0.03;
 /// A landmark is made up with the skin where so much of that is; one in doubt, in proportion, where less is.
 constexpr double kMostly = 0.4;
+/// Where this much of the skin is made up, the landmark may be wrong. Where less is, its surroundings hold
+/// it.
+constexpr double kWholly = 0.7;
 /// Limbs of one body differ by less, a fraction of the stature, also where one of them is bent.
 constexpr double kMostDifference = 0.03;
 /// Landmarks from here on serve tailors; they lie where the others do.
@@ -43,21 +46,29 @@ double length(const anatomy::Anatomy& anatomy, LandmarkId from, LandmarkId to) {
                                                   : std::numeric_limits<double>::quiet_NaN();
 }
 
+bool doubts_landmarks(const anatomy::Anatomy& anatomy) {
+  return std::ranges::any_of(anatomy.warnings, [](const engine::Warning& w) {
+    return w.code.ends_with("-uncertain") || w.code.ends_with("-disagrees");
+  });
+}
+
 void warn_of_made_up(const io::ImportedMesh& mesh, const anatomy::Anatomy& anatomy,
                      std::vector<engine::Warning>& warnings) {
   std::string names;
+  bool wholly = false;
   for (std::size_t i = 0; i < kMain; ++i) {
     const body::Landmark& mark = anatomy.landmarks[i];
     if (mark.confidence <= 0.0) continue;
     const double share = made_up_share(mesh, mark.position, kAround * anatomy.stature_m);
     if (share < kMostly * mark.confidence) continue;
+    wholly = wholly || share > kWholly;
     names += (names.empty() ? "" : ", ") + std::string(body::name(mark.id));
   }
   if (names.empty()) return;
   warnings.push_back(
       {"landmarks-made-up", "",
        "Much of the skin around these landmarks is not in the file, and closes holes: " + names + ".",
-       "Scan from more sides, also from below."});
+       "Scan from more sides, also from below.", !wholly && !doubts_landmarks(anatomy)});
 }
 
 void warn_of_unequal_limbs(const anatomy::Anatomy& anatomy, std::vector<engine::Warning>& warnings) {

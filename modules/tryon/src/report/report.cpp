@@ -116,7 +116,8 @@ Json accuracy_json(const fitting::FitAccuracy& accuracy) {
 
 void append_warnings(Json& list, std::span<const engine::Warning> warnings) {
   for (const engine::Warning& w : warnings)
-    list.push_back({{"code", w.code}, {"part", w.part}, {"message", w.message}, {"remedy", w.remedy}});
+    list.push_back(
+        {{"code", w.code}, {"part", w.part}, {"message", w.message}, {"remedy", w.remedy}, {"note", w.note}});
 }
 
 void append_stages(Json& list, std::span<const engine::StageTime> stages) {

@@ -102,8 +102,8 @@ BODICE_INLINE bodice_skin_info bodice_default_skin_info(void) {
 }
 
 BODICE_EXPERIMENTAL bodice_status bodice_skin_get_info(const bodice_skin* skin, bodice_skin_info* info);
-/** What was repaired, found doubtful or left out, with its remedy; as long as the skin lives. Null if there
- * is no such warning. */
+/** What was repaired, found doubtful or left out, with its remedy; as long as the skin lives. Statements that
+ * put nothing in doubt begin with "Note: ". Null if there is no such warning. */
 BODICE_EXPERIMENTAL const char* bodice_skin_warning(const bodice_skin* skin, uint32_t warning);
 
 /** The name of a joint of the rig, as long as the skin lives; null if there is no such joint. A proxy that is

@@ -91,22 +91,21 @@ void report(const FileScene& scene, const std::vector<Piece>& pieces, const std:
     left_count += in ? 0 : 1;
   }
   if (taken.size() > 1)
-    chosen.warnings.push_back(
-        {"body-joined", chosen.name, "The body was joined from the meshes " + list_names(scene, taken) + ".",
-         "If that is not the body, name its mesh (program: --mesh), or save it alone."});
+    chosen.warnings.push_back(engine::note(
+        "body-joined", chosen.name, "The body was joined from the meshes " + list_names(scene, taken) + ".",
+        "If that is not the body, name its mesh (program: --mesh), or save it alone."));
   if (left_count == 0) return;
   std::set<std::size_t> only_left;
   std::set_difference(left.begin(), left.end(), taken.begin(), taken.end(),
                       std::inserter(only_left, only_left.end()));
   const long rounded = std::lround(100.0 * left_area / total_area);
   const std::string percent = rounded > 0 ? std::to_string(rounded) : "under 1";
-  chosen.warnings.push_back({"pieces-left-out", chosen.name,
-                             std::to_string(left_count) +
-                                 (left_count == 1 ? " loose piece" : " loose pieces") + " with " + percent +
-                                 " % of the file's surface" +
-                                 (only_left.empty() ? "" : " (" + list_names(scene, only_left) + ")") +
-                                 (left_count == 1 ? " was" : " were") + " left out: not the body's skin.",
-                             "If that is wrong, name the body's mesh (program: --mesh), or save it alone."});
+  chosen.warnings.push_back(engine::note(
+      "pieces-left-out", chosen.name,
+      std::to_string(left_count) + (left_count == 1 ? " loose piece" : " loose pieces") + " with " + percent +
+          " % of the file's surface" + (only_left.empty() ? "" : " (" + list_names(scene, only_left) + ")") +
+          (left_count == 1 ? " was" : " were") + " left out: not the body's skin.",
+      "If that is wrong, name the body's mesh (program: --mesh), or save it alone."));
 }
 
 /// The chosen triangles as in the file, flaws included, which repair will report. `wanted` is indexed by
@@ -215,10 +214,11 @@ engine::Result<std::vector<std::size_t>> pieces_of_person(const engine::Context&
                          "There is no person " + std::to_string(person) + " in the file.",
                          "Give a number from 1 to " + std::to_string(count) + "."};
   if (count > 1)
-    chosen.warnings.push_back({"several-people", "",
-                               "The file holds " + std::to_string(count) + " bodies; number " +
-                                   std::to_string(person) + " was taken.",
-                               "Choose another by its number (program: --person), or save one body alone."});
+    chosen.warnings.push_back(
+        engine::note("several-people", "",
+                     "The file holds " + std::to_string(count) + " bodies; number " + std::to_string(person) +
+                         " was taken.",
+                     "Choose another by its number (program: --person), or save one body alone."));
   const std::size_t wanted = people[static_cast<std::size_t>(person - 1)];
   if (wanted == body.front()) return body;
   return join_pieces(context, joined, pieces, wanted);

@@ -38,6 +38,9 @@ constexpr double kWellWound = 0.6;
 /// A rebuilt skin with less of its area on the data is made up.
 constexpr double kLeastMeasured = 0.5;
 
+/// A closed skin of which more, in percent, is made up is in doubt.
+constexpr long kMuchMadeUp = 10;
+
 /// A closed skin that lost more than this share of the file's area lacks some toes or a finger. Scans that
 /// keep them lose up to .0006.
 constexpr double kMuchLost = 0.0015;
@@ -117,12 +120,14 @@ std::vector<engine::Warning> kept_warnings(const geometry::RepairReport& report)
 
 engine::Warning rebuilt_warning(std::size_t pieces, std::size_t open_edges, double measured) {
   const long made_up = std::lround(100.0 * (1.0 - measured));
-  return {
-      "skin-rebuilt", "",
-      "The skin was closed: the file gives it in " + std::to_string(pieces) +
-          (pieces == 1 ? " piece with " : " pieces with ") + std::to_string(open_edges) + " open edges; " +
-          std::to_string(made_up) + " % of the closed skin is not in the file.",
-      made_up > 10 ? "Scan from more sides, also from below, for a skin that is measured everywhere." : ""};
+  return {"skin-rebuilt", "",
+          "The skin was closed: the file gives it in " + std::to_string(pieces) +
+              (pieces == 1 ? " piece with " : " pieces with ") + std::to_string(open_edges) +
+              " open edges; " + std::to_string(made_up) + " % of the closed skin is not in the file.",
+          made_up > kMuchMadeUp
+              ? "Scan from more sides, also from below, for a skin that is measured everywhere."
+              : "",
+          made_up <= kMuchMadeUp};
 }
 
 }  // namespace

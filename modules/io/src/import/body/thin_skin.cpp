@@ -38,10 +38,11 @@ engine::Warning thin_skin(const engine::Context& context, double noise, geometry
   for (Index& t : skin.triangle_of_input)
     if (t != kNoIndex) t = thinned.triangle_of_input[t];
   skin.mesh = std::move(thinned.mesh);
-  return {"skin-thinned", "",
-          "The file has a skin of " + std::to_string(before) + " vertices, which was thinned to " +
-              std::to_string(skin.mesh.positions.size()) + "; accuracy counts from these.",
-          "To fit all of them, keep them (program: --keep-vertices)."};
+  return engine::note("skin-thinned", "",
+                      "The file has a skin of " + std::to_string(before) +
+                          " vertices, which was thinned to " + std::to_string(skin.mesh.positions.size()) +
+                          "; accuracy counts from these.",
+                      "To fit all of them, keep them (program: --keep-vertices).");
 }
 
 }  // namespace bodice::io
