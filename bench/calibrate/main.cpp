@@ -11,6 +11,7 @@
 
 #include "fit.hpp"
 #include "fit_corrections.hpp"
+#include "fit_fold_levels.hpp"
 #include "fit_joint_offsets.hpp"
 #include "fit_lengths.hpp"
 #include "fit_part_borders.hpp"
@@ -159,12 +160,14 @@ struct OwnFit {
   const char* name;
   const char* file;
   ordered_json (*fit)(const calibrate::Samples& samples);
+  bool standing = false;  ///< also by made bodies with an upright trunk
 };
 constexpr OwnFit kOwnFits[] = {{"stature", "stature", calibrate::fit_stature},
                                {"extremities", "extremities", calibrate::fit_extremities},
                                {"part_borders", "part_borders", calibrate::fit_part_borders},
                                {"joint_borders", "joint_borders", calibrate::fit_joint_borders},
                                {"joint_offsets", "joint_offsets", calibrate::fit_joint_offsets},
+                               {"fold_levels", "fold_levels", calibrate::fit_fold_levels, true},
                                {"perineum_signature", "perineum", calibrate::fit_perineum_signature},
                                {"armpit_signature", "armpit", calibrate::fit_armpit_signature}};
 
@@ -188,8 +191,11 @@ int main(int argc, char** argv) {
     return 2;
   }
   Bodies bodies(a);
-  for (const auto& [name, file, fit] : kOwnFits)
-    if (a.names(name) && !make_again(a.folder, file, fit(bodies.all()))) return 1;
+  for (const OwnFit& own : kOwnFits) {
+    if (!a.names(own.name)) continue;
+    const Samples samples = own.standing ? bodies.each_once() : bodies.all();
+    if (!make_again(a.folder, own.file, own.fit(samples))) return 1;
+  }
   std::vector<const LandmarkKind*> corrected;
   for (const LandmarkKind& kind : bodice::anatomy::landmark_kinds()) {
     const std::string name = file_of(kind);

@@ -7,6 +7,7 @@
 #include "analyze/cut_welds.hpp"
 #include "check/diagnostics.hpp"
 #include "check/flat_parts.hpp"
+#include "check/fold_doubts.hpp"
 #include "check/fused_limbs.hpp"
 #include "landmarks/find_landmarks.hpp"
 #include "landmarks/stature.hpp"
@@ -91,10 +92,11 @@ engine::Result<Anatomy> analyze_fine_enough(const engine::Context& context, cons
 }
 
 Warning touches(std::size_t vertices) {
-  return {"skin-touches", "",
-          "The skin touches itself in " + std::to_string(vertices) +
-              " welded vertices; they were taken apart, so that no path along the skin leads across.",
-          "Weld less, or move the parts that touch apart."};
+  return engine::note(
+      "skin-touches", "",
+      "The skin touches itself in " + std::to_string(vertices) +
+          " welded vertices; they were taken apart, so that no path along the skin leads across.",
+      "Weld less, or move the parts that touch apart.");
 }
 
 /// A skin that touches itself is analyzed with its touching parts taken apart.
@@ -157,7 +159,9 @@ engine::Result<Anatomy> analyze(const engine::Context& context, const geometry::
                                 const Options& options) {
   if (mesh.empty()) return no_body("the mesh has no triangles.");
   return engine::catch_canceled("The analysis of the body", [&] {
-    return checked(mesh, cut_welds(context, mesh, options, analyze_mesh), options.force);
+    auto found = checked(mesh, cut_welds(context, mesh, options, analyze_mesh), options.force);
+    if (found) doubt_folds(options, *found);
+    return found;
   });
 }
 

@@ -8,8 +8,10 @@
 
 #include <bodice/anatomy/plausible.hpp>
 
+#include "analyze/folds_hidden.hpp"
 #include "analyze/thin_copy.hpp"
 #include "analyze/webs.hpp"
+#include "check/fold_levels.hpp"
 
 namespace bodice::inline v0_1::anatomy {
 namespace {
@@ -28,9 +30,6 @@ constexpr std::array kNecks = {0.92, 0.95, 0.88};
 constexpr std::size_t kWalledDepths = 2;
 /// Area to squared length of a body is below this: .55 to .85, of a heavy one .9.
 constexpr double kMostArea = 1.0;
-/// A web hides an armpit or the crotch where the thin copy has it higher by this much of the stature; without
-/// webs it is .003.
-constexpr double kHidden = 0.01;
 
 /// Looks at a copy, each with the webs cut that the one before showed.
 constexpr int kPasses = 3;
@@ -38,6 +37,9 @@ constexpr int kPasses = 3;
 constexpr double kBelowFold = 0.025;
 /// Confidence of a landmark that a web hides: below that of one that is named in a warning.
 constexpr double kInDoubt = 0.3;
+
+/// Folds of a copy so many times as deep as the first lie too high, so that less is doubtful.
+constexpr double kMuchDeeper = 2.0, kDeepMisfit = 0.6;
 
 /// A body with welded limbs, and how it is analyzed.
 struct WeldedBody {
@@ -75,35 +77,26 @@ int doubts(const Anatomy& anatomy) {
       }));
 }
 
-struct NamedFold {
-  LandmarkId id;
-  const char* name;
-};
-constexpr std::array<NamedFold, 3> kFolds = {{{LandmarkId::kArmpitL, "the left armpit"},
-                                              {LandmarkId::kArmpitR, "the right armpit"},
-                                              {LandmarkId::kPerineum, "the crotch"}}};
-
-/// The folds that a thin copy shows, joined to a clause; empty if there are none.
-std::string folds(const Anatomy& as_is, const Anatomy& apart) {
-  std::string text;
-  for (const NamedFold& fold : kFolds) {
-    const auto at = static_cast<std::size_t>(fold.id);
-    const Vec3 offset = apart.landmarks[at].position - as_is.landmarks[at].position;
-    if (offset.dot(apart.up) < kHidden * apart.stature_m) continue;
-    text += (text.empty() ? "" : ", ") + std::string(fold.name);
-  }
-  return text;
-}
-
-/// `sure`: the cut is reported, and there is nothing to check.
+/// `sure`: the cut is reported, and there is nothing to check. Handles that are left, of walls with gaps,
+/// are then none of the body's paths.
 void warn(const std::string& where, const ThinCopy& thin, bool sure, Anatomy& apart) {
   std::erase_if(apart.warnings, [](const engine::Warning& w) { return w.code == "holes"; });
+  for (engine::Warning& w : apart.warnings) w.note = w.note || (sure && w.code == "limbs-fused");
   apart.warnings.push_back(
       {"limbs-cut", "",
        "Parts of the body are welded to each other" + (where.empty() ? "" : " at " + where) +
            "; they were cut apart " + std::to_string(std::lround(1e3 * thin.depth / apart.stature_m)) +
            " thousandths of the stature below the skin.",
-       sure ? "" : "Check the borders of parts there; a pose with arms and legs apart needs no cut."});
+       sure ? "" : "Check the borders of parts there; a pose with arms and legs apart needs no cut.", sure});
+}
+
+/// Whether nothing but a handle is in doubt, and armpits and crotch lie where the limbs let expect them.
+/// `webs_only`: their folds were found by the room inside the body, which is evidence as well.
+bool is_sure(const Anatomy& apart, const ThinCopy& thin, bool webs_only) {
+  const bool deep = thin.depth > kDepths[0] * kMuchDeeper * apart.stature_m;
+  const auto handles = std::ranges::count(apart.warnings, "limbs-fused", &engine::Warning::code);
+  if (doubts(apart) > handles || fold_misfit(apart.landmarks) > (deep ? kDeepMisfit : 1.0)) return false;
+  return folds_below_expected(apart.landmarks) || (webs_only && handles == 0);
 }
 
 /// A thin copy that has come apart, and what was found on it.
@@ -182,15 +175,14 @@ void doubt(const std::vector<Web>& webs, Anatomy& anatomy) {
   }
 }
 
-/// What is found on a copy, carried out to the skin. Where only webs were cut and no landmark is in doubt,
-/// there is nothing to check.
+/// What is found on a copy, carried out to the skin.
 Anatomy carried(const WeldedBody& body, const Parted& parted, const engine::Result<Anatomy>& as_is,
                 bool webs_only) {
   Anatomy apart = carry_out(body.context, parted.thin, parted.found, body.mesh);
-  const std::string where = as_is ? folds(*as_is, apart) : "";
+  const std::string where = as_is ? hidden_folds(*as_is, apart) : "";
   doubt(parted.left, apart);
   if (as_is) apart.stages = as_is->stages;
-  warn(where, parted.thin, webs_only && doubts(apart) == 0, apart);
+  warn(where, parted.thin, is_sure(apart, parted.thin, webs_only), apart);
   return apart;
 }
 
@@ -235,19 +227,29 @@ bool is_of_two(const TriMesh& mesh) {
   return geometry::surface_area(mesh) > kMostArea * length * length;
 }
 
+/// Keeps a cut with armpits and crotch where the limbs let expect them and no more in doubt, or the
+/// first one. Returns whether it is kept for that.
+bool keep_better(std::optional<Anatomy> apart, std::optional<Anatomy>& best) {
+  if (!apart) return false;
+  const bool fits = fold_misfit(apart->landmarks) <= 1.0 && (!best || doubts(*apart) <= doubts(*best));
+  if (!best || fits) best = std::move(apart);
+  return fits;
+}
+
 std::optional<Anatomy> welds_apart(const WeldedBody& body, const std::vector<Web>& seen,
                                    const engine::Result<Anatomy>& as_is) {
+  std::optional<Anatomy> best;
   for (const double depth : std::span(kDepths).subspan(1)) {
     body.skin.remove_walls();
-    if (auto apart = apart_at(body, depth, seen, as_is)) return apart;
+    if (keep_better(apart_at(body, depth, seen, as_is), best)) return best;
   }
-  if (!is_welded(as_is) || is_of_two(body.mesh)) return std::nullopt;
-  for (const double neck : kNecks)
+  if (!is_welded(as_is) || is_of_two(body.mesh)) return best;
+  for (const double neck : std::span(kNecks).first(best ? 1 : kNecks.size()))
     for (const double depth : std::span(kDepths).first(kWalledDepths)) {
       body.skin.wall_limbs(body.context, body.distance, neck);
-      if (auto apart = apart_at(body, depth, seen, as_is)) return apart;
+      if (keep_better(apart_at(body, depth, seen, as_is), best)) return best;
     }
-  return std::nullopt;
+  return best;
 }
 
 }  // namespace

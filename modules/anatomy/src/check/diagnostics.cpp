@@ -18,14 +18,15 @@ constexpr double kAsymmetry = 0.12;
 
 void check_surface(const Skin& skin, std::vector<Warning>& warnings) {
   if (skin.open_edges > 0)
-    warnings.push_back({"holes", "", std::to_string(skin.open_edges) + " edges of the skin border a hole.",
-                        "Close the holes if distances around them matter."});
+    warnings.push_back(engine::note("holes", "",
+                                    std::to_string(skin.open_edges) + " edges of the skin border a hole.",
+                                    "Close the holes if distances around them matter."));
   if (skin.pieces > 1)
-    warnings.push_back(
-        {"extra-pieces", "",
-         std::to_string(skin.pieces - 1) +
-             " pieces are not connected to the body and take the part of the closest point of the skin.",
-         "Remove eyes, clothes or scan debris to leave them out."});
+    warnings.push_back(engine::note(
+        "extra-pieces", "",
+        std::to_string(skin.pieces - 1) +
+            " pieces are not connected to the body and take the part of the closest point of the skin.",
+        "Remove eyes, clothes or scan debris to leave them out."));
   const int count = skin.handles;
   if (count > 0)
     warnings.push_back(

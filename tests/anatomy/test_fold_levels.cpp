@@ -1,0 +1,68 @@
+// Armpits and crotch where limbs let expect them: whole bodies pass, folds that are far off do not.
+#include <doctest/doctest.h>
+
+#include <bodice/synth/body.hpp>
+
+#include "analyzed.hpp"
+#include "check/fold_doubts.hpp"
+#include "check/fold_levels.hpp"
+
+using namespace bodice;
+using anatomy::fold_misfit;
+using body::LandmarkId;
+
+namespace {
+
+anatomy::Anatomy found_on(synth::Pose pose, double childhood = 0.0) {
+  synth::BodyOptions options;
+  options.pose = pose;
+  options.childhood = childhood;
+  if (childhood > 0.0) options.stature_m = 1.0, options.mass_kg = 16.0;
+  const auto body = synth::make_body({}, options);
+  REQUIRE(body.ok());
+  return analyzed(body->mesh);
+}
+
+body::Landmark& mark(anatomy::Anatomy& found, LandmarkId id) {
+  return found.landmarks[static_cast<std::size_t>(id)];
+}
+
+int doubts(const anatomy::Anatomy& found) {
+  return static_cast<int>(std::ranges::count_if(
+      found.warnings, [](const engine::Warning& w) { return w.code.ends_with("-uncertain"); }));
+}
+
+}  // namespace
+
+TEST_CASE("folds of adults that stand lie where they are expected, and those of others are not judged") {
+  for (const auto pose : {synth::Pose::kA, synth::Pose::kT, synth::Pose::kArmsDown}) {
+    const auto found = found_on(pose);
+    CHECK(anatomy::folds_below_expected(found.landmarks));
+    CHECK(fold_misfit(found.landmarks) < 1.0);
+  }
+  CHECK_FALSE(anatomy::folds_below_expected(found_on(synth::Pose::kSit).landmarks));
+  CHECK_FALSE(anatomy::folds_below_expected(found_on(synth::Pose::kArmsUp).landmarks));
+  CHECK_FALSE(anatomy::folds_below_expected(found_on(synth::Pose::kA, 1.0).landmarks));
+  CHECK_FALSE(anatomy::folds_below_expected({}));
+}
+
+TEST_CASE("a fold that a web hides is in doubt: sooner on a skin that was cut or closed") {
+  for (const LandmarkId id : {LandmarkId::kArmpitL, LandmarkId::kArmpitR, LandmarkId::kPerineum}) {
+    auto found = found_on(synth::Pose::kArmsDown);
+    mark(found, id).position -= 0.045 * found.stature_m * found.up;
+    CHECK(fold_misfit(found.landmarks) > 1.0);
+    const std::vector<std::uint8_t> closed(4, 1);
+    anatomy::Options options;
+    options.made_up = closed;
+    anatomy::doubt_folds(options, found);
+    CHECK(doubts(found) == 1);
+    CHECK(mark(found, id).confidence <= 0.3);
+  }
+  auto whole = found_on(synth::Pose::kArmsDown);
+  mark(whole, LandmarkId::kPerineum).position -= 0.03 * whole.stature_m * whole.up;
+  anatomy::doubt_folds({}, whole);
+  CHECK(doubts(whole) == 0);
+  mark(whole, LandmarkId::kPerineum).position -= 0.03 * whole.stature_m * whole.up;
+  anatomy::doubt_folds({}, whole);
+  CHECK(doubts(whole) == 1);
+}
