@@ -50,3 +50,15 @@ TEST_CASE("clean and empty surfaces have no folds, and rims stay where they are"
   CHECK(kept > 100);  // the rim has some 200 vertices
   CHECK(moved > 4000);
 }
+
+TEST_CASE("a needle on a folded ball keeps its tip") {
+  TriMesh ball = folded_ball();
+  const Vec3 at = ball.corner(0, 0), out = at.normalized(), across = out.unitOrthogonal(),
+             up = out.cross(across);
+  const auto first = static_cast<Index>(ball.positions.size());
+  for (const Vec3& corner : {Vec3(0.01 * across), Vec3(0.01 * up), Vec3(-0.01 * across), Vec3(0.2 * out)})
+    ball.positions.push_back(at + corner);
+  for (const Index c : {0U, 1U, 2U}) ball.triangles.push_back({first + c, first + (c + 1) % 3, first + 3});
+  const std::vector<Vec3> even = without_folds({}, ball);
+  CHECK((even[first + 3] - ball.positions[first + 3]).norm() < 1e-6);
+}

@@ -17,7 +17,7 @@ using geometry::Vec3;
 constexpr double kTowardKnee = 0.97, kShin = 0.8, kThigh = 0.75;
 
 /// Crown to neck as a share of the height: adults have less, small children more.
-constexpr double kAdultHead = 0.19;
+constexpr double kAdultHead = 0.2;
 
 template <std::size_t n>
 double dot(const std::array<double, n>& measures, const double (&weights)[n]) {

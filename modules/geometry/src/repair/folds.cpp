@@ -1,6 +1,7 @@
 #include <bodice/geometry/folds.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 #include <bodice/engine/parallel.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
@@ -17,13 +18,23 @@ constexpr int kSteps = 6;
 constexpr double kStep = 0.5;
 constexpr std::size_t kFoldGrain = 2048;
 
-/// #V: vertices that stay, at rims and where more than two triangles meet.
-std::vector<char> find_fixed(const TriMesh& mesh) {
+/// The mean cosine, either sign, between a vertex' normal and its triangles: .9 on fingers. Below it there is
+/// a tip, which the middle of the neighbors would cut off.
+constexpr double kTip = 0.4;
+
+/// #V: vertices that stay, at rims, where more than two triangles meet, and at tips.
+std::vector<char> find_fixed(const TriMesh& mesh, const std::vector<Vec3>& normals) {
   const MeshEdges edges = mesh_edges(mesh);
   std::vector<char> fixed(mesh.positions.size());
   for (std::size_t e = 0; e < edges.ends.size(); ++e)
     if (edges.triangle_count[e] != 2)
       for (const Index v : edges.ends[e]) fixed[v] = true;
+  std::vector<double> along(fixed.size()), all(fixed.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3 area = area_vector(mesh, t);
+    for (const Index v : mesh.triangles[t]) along[v] += std::abs(area.dot(normals[v])), all[v] += area.norm();
+  }
+  for (std::size_t v = 0; v < fixed.size(); ++v) fixed[v] = fixed[v] || along[v] < kTip * all[v];
   return fixed;
 }
 
@@ -53,7 +64,7 @@ double folded_share(const TriMesh& mesh) {
 std::vector<Vec3> without_folds(const engine::Context& context, const TriMesh& mesh) {
   const Neighbors neighbors(mesh);
   const std::vector<Vec3> normals = smooth_normals(context, mesh, neighbors);
-  const std::vector<char> fixed = find_fixed(mesh);
+  const std::vector<char> fixed = find_fixed(mesh, normals);
   std::vector<Vec3> positions = mesh.positions, next = positions;
   const auto for_each_free = [&](auto&& move) {
     engine::parallel_for(context, positions.size(), kFoldGrain, [&](std::size_t begin, std::size_t end) {
