@@ -14,8 +14,8 @@ using body::Part;
 
 /// Confidence of a landmark in doubt: below that of one that is named in a warning.
 constexpr double kFoldInDoubt = 0.3;
-/// The skin of a body that was neither cut nor closed speaks for its folds: armpits are in doubt where they are
-/// this many times as far off, as webs have them that fill all room beside the trunk, and crotches never.
+/// The skin of a body that was neither cut nor closed speaks for its folds: armpits are in doubt where they
+/// are this many times as far off, as webs have them that fill all room beside the trunk, and crotches never.
 constexpr double kAsGiven = 1.75;
 
 struct JudgedFold {
