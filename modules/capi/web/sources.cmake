@@ -5,7 +5,7 @@ foreach(name IN ITEMS fit progress read_skin rig skin)  # sessions, drapes and t
   list(APPEND bodice_web_sources "capi/src/whole/${name}.cpp")
 endforeach()
 # Of tryon what makes a skin and a proxy of a mesh; of io nothing, since the page reads its files itself.
-foreach(name IN ITEMS closed_skin_doubts load_body prepare refine_thing rigged_body segment_tasks stand_upright)
+foreach(name IN ITEMS load_body prepare refine_thing rigged_body scan_doubts segment_tasks stand_upright)
   list(APPEND bodice_web_sources "tryon/src/body/${name}.cpp")
 endforeach()
 list(TRANSFORM bodice_web_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/../../")

@@ -8,8 +8,8 @@
 #include <bodice/engine/stage_timer.hpp>
 
 #include "body/append.hpp"
-#include "body/closed_skin_doubts.hpp"
 #include "body/load_body.hpp"
+#include "body/scan_doubts.hpp"
 #include "body/stand_upright.hpp"
 
 namespace bodice::inline v0_1::tryon {
@@ -47,7 +47,7 @@ std::shared_ptr<SegmentedSkin> join_skin(const engine::Context& context, const i
   append(skin->stages, anatomy.stages);
   append(skin->stages, field.stages);
   append(skin->warnings, anatomy.warnings);
-  warn_of_closed_skin(mesh, anatomy, skin->warnings);
+  warn_of_scan(mesh, anatomy, skin->warnings);
   drop_repeated_holes(skin->warnings);
   if (stand_upright(skin->input, skin->anatomy))
     skin->distance = std::make_shared<const MeshDistance>(context, skin->input.skin);

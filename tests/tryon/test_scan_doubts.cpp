@@ -2,7 +2,7 @@
 
 #include <bodice_test/shapes.hpp>
 
-#include "body/closed_skin_doubts.hpp"
+#include "body/scan_doubts.hpp"
 
 using namespace bodice;
 
@@ -35,7 +35,7 @@ struct Closed {
   }
   std::string codes() {
     warnings.clear();
-    tryon::warn_of_closed_skin(mesh, anatomy, warnings);
+    tryon::warn_of_scan(mesh, anatomy, warnings);
     std::string all;
     for (const engine::Warning& warning : warnings) all += warning.code + " ";
     return all;
@@ -84,4 +84,20 @@ TEST_CASE("a hand that is shorter than the other one is in doubt where the skin 
   closed.mesh.made_up.assign(closed.mesh.skin.positions.size(), 0);
   closed.anatomy.landmarks.clear();  // a thing that is no person
   CHECK(closed.codes().empty());
+}
+
+TEST_CASE("armpits and a crotch that are unlike known ones are in doubt together, in a scan alone") {
+  Closed scan;
+  scan.mesh.made_up.clear();
+  for (const body::LandmarkId id : {body::LandmarkId::kArmpitL, body::LandmarkId::kArmpitR})
+    scan.anatomy.landmarks[static_cast<std::size_t>(id)].confidence = 0.7;
+  scan.anatomy.landmarks[kPerineum].confidence = 0.7;
+  CHECK(scan.codes().empty());
+  scan.mesh.noise_m = 0.001;
+  CHECK(scan.codes() == "folds-uncertain ");
+  scan.anatomy.landmarks[kPerineum].confidence = 0.9;
+  CHECK(scan.codes().empty());
+  scan.anatomy.landmarks[kPerineum].confidence = 0.7;
+  scan.anatomy.warnings = {{"perineum-uncertain", "", "", ""}};  // it is in doubt already
+  CHECK(scan.codes().empty());
 }
