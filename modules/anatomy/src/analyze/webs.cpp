@@ -29,7 +29,7 @@ constexpr double kDeepest = 0.15;   ///< no point of a body lies deeper
 constexpr double kStep = 0.004;     ///< from one level to the next
 constexpr double kFarthest = 0.25;  ///< the last level
 constexpr double kMiddle = 0.01;    ///< the plane between the limbs is found within this distance
-constexpr double kAhead = 0.084, kAheadStep = 0.012;  ///< where the thickest point of a level is looked for
+constexpr double kAhead = 0.084, kAheadStep = 0.006;  ///< where the thickest point of a level is looked for
 constexpr double kShallow = 0.015;                    ///< what lies less deep shows no fold
 constexpr std::array kLimbs{0.03, 0.045};             ///< from the plane to the middles of the limbs
 /// The plane is above the fold where it has at least this share of the room beside it.
@@ -47,13 +47,13 @@ constexpr std::array kNearLevels{0.012, 0.02, 0.028};
 constexpr double kTooHigh = 0.06, kTooLow = 0.12;
 /// Skin within so much more than the nearest is made up if this share of its vertices is.
 constexpr double kMadeUpAround = 0.03, kMadeUpShare = 0.03;
-/// The least height of a web: whole bodies show less, with straight thighs and with bent ones. Of 240 that
-/// stand all show less than .021 at the crotch. Where holes were closed, webs are the rule.
+/// The least height of a web: whole bodies show less, with straight thighs and with bent ones. Of 87 that
+/// stand all show less than .0155 at the crotch. Where holes were closed, webs are the rule.
 struct Least {
   double crotch, armpit;
 };
 constexpr std::array kFoldLandmarks{LandmarkId::kArmpitL, LandmarkId::kArmpitR, LandmarkId::kPerineum};
-constexpr Least kStanding{0.0225, 0.013}, kBent{0.035, 0.025}, kMadeUp{0.008, 0.006};
+constexpr Least kStanding{0.0175, 0.013}, kBent{0.035, 0.025}, kMadeUp{0.008, 0.006};
 
 /// The route from a landmark into the body, between the two limbs that meet there.
 struct Route {
