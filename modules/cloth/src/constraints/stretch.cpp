@@ -44,6 +44,18 @@ Strain add(const Strain& l, const Strain& r) {
   return {l.energy_j + r.energy_j, std::max(l.longest, r.longest)};
 }
 
+/// Does it for packs with these strains; `most` begins with the particle that their indices count from.
+template <class Id>
+void raise_in(std::span<const EdgePack<Id>> packs, std::span<const float> strain, float above,
+              std::span<float> most) {
+  for (std::size_t slot = 0; slot < strain.size(); ++slot) {
+    if (!(strain[slot] > above)) continue;  // so are idle slots
+    const EdgePack<Id>& pack = packs[slot / kPack];
+    for (const Id end : {pack.a[slot % kPack], pack.b[slot % kPack]})
+      most[end] = std::max(most[end], strain[slot]);
+  }
+}
+
 }  // namespace
 
 StretchConstraints make_stretch(const geometry::TriMesh& mesh, const Topology& topology, const Fabric& fabric,
@@ -107,6 +119,18 @@ Strain measure_stretch(const engine::Context& context, const StretchConstraints&
       },
       add);
   return add(inside, across);
+}
+
+void raise_to_strain(const StretchConstraints& c, std::span<const float> strain, float above,
+                     std::span<float> most) {
+  const Schedule& schedule = c.schedule;
+  const std::size_t size = block_size(most.size()), first = kPack * schedule.packs_inside();
+  for (std::size_t b = 0; b < schedule.blocks(); ++b) {
+    const auto packs = schedule.inside(std::span(c.inside), b);
+    raise_in(packs, strain.subspan(kPack * schedule.block_begin[b], kPack * packs.size()), above,
+             most.subspan(b * size));
+  }
+  raise_in(std::span(c.across), strain.subspan(first), above, most);
 }
 
 }  // namespace bodice::cloth

@@ -86,8 +86,8 @@ void respond(Particles& p, ContactState& s, std::size_t i, const BodyContact& co
   const auto [begin, end] = contact.substep.share;
   const float share = end - begin;
   const Float4 normal = turned(load(m.normal[i]), (end - 1.0f) * load(m.turn[i]));
-  friction_and_velocity(p, i, {share * load(m.by[i]), share * m.along[i], normal}, s.friction,
-                        contact.substep.inverse_per_s());
+  friction_and_velocity(p, i, {share * load(m.by[i]), share * m.along[i], normal},
+                        m.moving ? s.friction * s.grip[i] : s.friction, contact.substep.inverse_per_s());
 }
 
 // Resolves the contacts of the particles of a patch. Only clusters that may touch the body go to the
@@ -147,6 +147,7 @@ std::uint32_t take_from_points(Particles& p, std::size_t begin, std::size_t end)
 ContactState make_contacts(std::size_t particles, double friction, FaceContact faces) {
   ContactState s;
   s.friction = static_cast<float>(friction);
+  s.grip.assign(particles, 1.0f);
   s.touching.assign(particles, 0);
   s.clearance = make_clearance_cache(particles);
   s.motion = make_motion(particles, friction);

@@ -24,7 +24,8 @@ struct ContactPatch {
 
 /// The state of body contact.
 struct ContactState {
-  float friction = 0.0f;               ///< coefficient of friction of the cloth
+  float friction = 0.0f;    ///< coefficient of friction of the cloth
+  std::vector<float> grip;  ///< #P: the share of that friction which acts on a body that moves, from 0 to 1
   std::vector<std::uint8_t> touching;  ///< #P: whether the collider moved the particle in the last substep
   std::vector<ContactPatch> patch;     ///< #P / kPatch
   ClearanceCache clearance;

@@ -17,17 +17,22 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-double fastest(const engine::Context& context, const Particles& p) {
-  const float v2 = engine::ordered_reduce(
-      context, p.count(), reduce_grain(p.count()), 0.0f,
-      [&](std::size_t begin, std::size_t end) {
-        float most = 0.0f;
-        for (std::size_t i = begin; i < end; ++i)
-          most = std::max(most, p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
-        return most;
-      },
-      [](float a, float b) { return std::max(a, b); });
-  return static_cast<double>(std::sqrt(v2));
+// One particle of so many may be faster than the substeps of a frame allow.
+constexpr std::size_t kFewFast = 200;
+
+// A particle has all of its friction up to this strain beyond the limit of the fabric, and none at kGripFades
+// more. It loses and regains it within so many seconds, so that a jerk does not cost a sock its hold.
+constexpr float kGripsBeyond = 0.04f, kGripFades = 0.12f, kGripFades_s = 0.25f;
+
+// The speed that all but few particles keep. Those few are slowed where they cross too much cloth in a
+// substep: more substeps for what crushed cloth flings would multiply the time of the frame.
+double usual_speed(const engine::Context& context, State& s) {
+  const Particles& p = s.particles;
+  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      s.speed[i] = std::sqrt(p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
+  });
+  return static_cast<double>(nth_largest(context, s.speed, p.count() / kFewFast, s.selection));
 }
 
 // Copies the particles [begin, end) to the points, with weights for this frame: pinned and sleeping particles
@@ -46,8 +51,31 @@ bool touches_itself(const Plan& plan, const State& s) {
   return s.options.self_collision && !(plan.limits & kNoSelfContact);
 }
 
+// The share of friction of a particle on a body that moves, by the largest strain of its edges.
+float wanted_grip(float strain, float full) {
+  return strain > full ? std::max(0.0f, 1.0f - (strain - full) / kGripFades) : 1.0f;
+}
+
+// Lets cloth slip that is stretched far beyond the limit of its fabric. A person would yield or let it slide;
+// a clip does not, and friction would hold what the constraints cannot.
+void find_grip(const Plan& plan, State& s) {
+  std::vector<float>& grip = s.contacts.grip;
+  const float full = static_cast<float>(s.fabric.max_stretch) + kGripsBeyond;
+  const bool stretched = s.longest_strain > full;
+  if (!stretched && !s.slips) return;
+  std::ranges::fill(s.overstretch, 0.0f);
+  if (stretched) raise_to_strain(s.stretch, s.strain, full, s.overstretch);
+  const float most = static_cast<float>(plan.simulated_s) / kGripFades_s;
+  s.slips = false;
+  for (std::size_t i = 0; i < grip.size(); ++i) {
+    grip[i] = std::clamp(wanted_grip(s.overstretch[i], full), grip[i] - most, grip[i] + most);
+    s.slips = s.slips || grip[i] < 1.0f;
+  }
+}
+
 void begin_frame(const engine::Context& context, const Plan& plan, State& s) {
   Particles& p = s.particles;
+  find_grip(plan, s);
   update_air(context, s.options.environment, s.options.seed, s.time_s, p, s.air);
   std::atomic<bool> changed{false};
   engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
@@ -183,8 +211,8 @@ FrameReport advance(const engine::Context& context, const collision::Collider* c
                     State& s) {
   const std::int64_t start_ns = context.clock->now_ns();
   const bool moved = begin_collider(collider, s);
-  const Plan plan = plan_frame(s.options, dt_s, fastest(context, s.particles),
-                               static_cast<double>(s.max_travel_m), s.budget.level);
+  const Plan plan = plan_frame(s.options, dt_s, usual_speed(context, s), static_cast<double>(s.max_travel_m),
+                               s.budget.level);
   FrameReport report;
   report.substeps = plan.substeps;
   report.simulated_s = plan.simulated_s;

@@ -23,7 +23,7 @@ Motion sum_of(const Motion& a, const Motion& b) {
 // zero.
 double strain_p95(const engine::Context& context, State& s) {
   const auto longer = static_cast<std::size_t>(0.05 * static_cast<double>(s.stretch.edges));
-  return static_cast<double>(nth_largest(context, s.scratch, longer, s.selection));
+  return static_cast<double>(nth_largest(context, s.strain, longer, s.selection));
 }
 
 double median_speed(const engine::Context& context, State& s) {
@@ -58,7 +58,8 @@ void measure_motion(const engine::Context& context, State& s, FrameReport& repor
 }  // namespace
 
 void measure(const engine::Context& context, State& s, FrameReport& report) {
-  const Strain strain = measure_stretch(context, s.stretch, s.particles, s.scratch);
+  const Strain strain = measure_stretch(context, s.stretch, s.particles, s.strain);
+  s.longest_strain = strain.longest;
   report.elastic_energy_j = strain.energy_j + bend_energy(context, s.bend, s.particles);
   report.stretch_max = static_cast<double>(strain.longest);
   report.stretch_p95 = strain_p95(context, s);
