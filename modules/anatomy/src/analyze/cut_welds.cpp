@@ -12,6 +12,7 @@
 #include "analyze/thin_copy.hpp"
 #include "analyze/webs.hpp"
 #include "check/fold_levels.hpp"
+#include "check/named_folds.hpp"
 
 namespace bodice::inline v0_1::anatomy {
 namespace {
@@ -35,8 +36,6 @@ constexpr double kMostArea = 1.0;
 constexpr int kPasses = 3;
 /// How far a landmark may lie below the fold up to which limbs were parted; of the stature.
 constexpr double kBelowFold = 0.025;
-/// Confidence of a landmark that a web hides: below that of one that is named in a warning.
-constexpr double kInDoubt = 0.3;
 
 /// Folds of a copy so many times as deep as the first lie too high, so that less is doubtful.
 constexpr double kMuchDeeper = 2.0, kDeepMisfit = 0.6;
@@ -160,19 +159,10 @@ std::optional<Parted> part_known(const WeldedBody& body, const Anatomy& rough, s
 
 /// Landmarks that webs lead astray are no longer trusted.
 void doubt(const std::vector<Web>& webs, Anatomy& anatomy) {
-  for (const Web& web : webs) {
-    body::Landmark& mark = anatomy.landmarks[static_cast<std::size_t>(web.id)];
-    mark.confidence = std::min(mark.confidence, kInDoubt);
-    const bool crotch = web.id == LandmarkId::kPerineum;
-    const auto part = crotch                           ? body::Part::kThighL
-                      : web.id == LandmarkId::kArmpitL ? body::Part::kUpperArmL
-                                                       : body::Part::kUpperArmR;
-    anatomy.warnings.push_back(
-        {crotch ? "perineum-uncertain" : "armpit-uncertain", std::string(body::name(part)),
-         std::string(crotch ? "The crotch" : "This armpit") +
-             " lies lower than the room inside the body shows: skin that has grown together hides it.",
-         "Check this border in the result; a pose with arms and legs apart has none."});
-  }
+  for (const Web& web : webs)
+    doubt_fold(*std::ranges::find(kNamedFolds, web.id, &NamedFold::id),
+               "lower than the room inside the body shows: skin that has grown together hides it.",
+               " has none.", anatomy);
 }
 
 /// What is found on a copy, carried out to the skin.

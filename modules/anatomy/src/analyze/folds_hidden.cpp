@@ -1,30 +1,21 @@
 #include "analyze/folds_hidden.hpp"
 
-#include <array>
+#include "check/named_folds.hpp"
 
 namespace bodice::inline v0_1::anatomy {
 namespace {
 
-using body::LandmarkId;
 using geometry::Vec3;
 
 /// A web hides an armpit or the crotch where the thin copy has it higher by this much of the stature; without
 /// webs it is .003.
 constexpr double kHidden = 0.01;
 
-struct NamedFold {
-  LandmarkId id;
-  const char* name;
-};
-constexpr std::array<NamedFold, 3> kFolds = {{{LandmarkId::kArmpitL, "the left armpit"},
-                                              {LandmarkId::kArmpitR, "the right armpit"},
-                                              {LandmarkId::kPerineum, "the crotch"}}};
-
 }  // namespace
 
 std::string hidden_folds(const Anatomy& as_is, const Anatomy& apart) {
   std::string text;
-  for (const NamedFold& fold : kFolds) {
+  for (const NamedFold& fold : kNamedFolds) {
     const auto at = static_cast<std::size_t>(fold.id);
     const Vec3 offset = apart.landmarks[at].position - as_is.landmarks[at].position;
     if (offset.dot(apart.up) < kHidden * apart.stature_m) continue;

@@ -5,8 +5,8 @@
 
 namespace bodice::inline v0_1::anatomy {
 
-/// Warns of folds that lie far from where the other landmarks let expect them, and lowers their confidence:
-/// of skins that were cut or that close holes, and of others where folds are farther off still.
+/// Warns of folds that lie far from where the other landmarks let expect them, and lowers their confidence.
+/// Skins that were neither cut nor closed are doubted where armpits are farther off still.
 void doubt_folds(const Options& options, Anatomy& anatomy);
 
 }  // namespace bodice::anatomy

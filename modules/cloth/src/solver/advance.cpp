@@ -30,9 +30,9 @@ double usual_speed(const engine::Context& context, State& s) {
   const Particles& p = s.particles;
   engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      s.speed[i] = std::sqrt(p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
+      s.scratch[i] = std::sqrt(p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
   });
-  return static_cast<double>(nth_largest(context, s.speed, p.count() / kFewFast, s.selection));
+  return static_cast<double>(nth_largest(context, s.scratch, p.count() / kFewFast, s.selection));
 }
 
 // Copies the particles [begin, end) to the points, with weights for this frame: pinned and sleeping particles
@@ -63,12 +63,12 @@ void find_grip(const Plan& plan, State& s) {
   const float full = static_cast<float>(s.fabric.max_stretch) + kGripsBeyond;
   const bool stretched = s.longest_strain > full;
   if (!stretched && !s.slips) return;
-  std::ranges::fill(s.overstretch, 0.0f);
-  if (stretched) raise_to_strain(s.stretch, s.strain, full, s.overstretch);
+  std::ranges::fill(s.scratch, 0.0f);
+  if (stretched) raise_to_strain(s.stretch, s.strain, full, s.scratch);
   const float most = static_cast<float>(plan.simulated_s) / kGripFades_s;
   s.slips = false;
   for (std::size_t i = 0; i < grip.size(); ++i) {
-    grip[i] = std::clamp(wanted_grip(s.overstretch[i], full), grip[i] - most, grip[i] + most);
+    grip[i] = std::clamp(wanted_grip(s.scratch[i], full), grip[i] - most, grip[i] + most);
     s.slips = s.slips || grip[i] < 1.0f;
   }
 }

@@ -111,8 +111,7 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   if (options.certify_m && !s.contacts.faces.elements.all.empty())
     s.contacts.certificate = make_certificate(s.contacts.faces.elements, s.particles.count());
   s.strain.resize(s.stretch.slots());
-  s.speed.resize(s.particles.count());
-  s.overstretch.resize(s.particles.count());
+  s.scratch.resize(s.particles.count());
   s.selection = make_selection(std::max(s.stretch.slots(), s.particles.count()));
   s.max_travel_m = static_cast<float>(kMaxTravel * geometry::bounding_box(mesh.positions).size().norm());
   s.contacts.motion.ccd_threshold_m = kCcdThreshold * s.max_travel_m;

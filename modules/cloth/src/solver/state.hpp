@@ -39,11 +39,10 @@ struct State {
   Budget budget;
   const collision::Collider* last_collider = nullptr;  ///< compared with, never dereferenced
   std::uint64_t last_proxy_hash = 0, last_poses = 0;
-  std::vector<float> strain;       ///< of each slot of edges, at the end of the frame before
-  float longest_strain = 0.0f;     ///< the largest of them
-  std::vector<float> overstretch;  ///< #P: the largest strain of its edges, or zero where that is allowed
-  bool slips = false;              ///< whether some particle lacks a share of its friction
-  std::vector<float> speed;        ///< #P, when a frame begins
+  std::vector<float> strain;    ///< one value a slot of edges, at the end of the frame before
+  float longest_strain = 0.0f;  ///< the largest of them
+  std::vector<float> scratch;   ///< #P: values that the beginning of a frame needs for a moment
+  bool slips = false;           ///< whether some particle lacks a share of its friction
   Selection selection;
   float max_travel_m = 0.0f;  ///< the most that a particle may move in a substep
   double time_s = 0.0;        ///< simulated time

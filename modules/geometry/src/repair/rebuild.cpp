@@ -56,9 +56,8 @@ void close_border(FieldGrid& grid) {
 
 /// Marks the triangles of the data with a corner that is farther than `from_m` from the surface. What is
 /// farther than `up_to_m` in one piece with them is something else, such as a floor.
-std::vector<char> find_lost(const engine::Context& context, const TriMesh& data, const TriMesh& surface,
+std::vector<char> find_lost(const engine::Context& context, const TriMesh& data, const MeshDistance& distance,
                             double from_m, double up_to_m) {
-  const MeshDistance distance(context, surface);
   std::vector<char> beside(data.positions.size()), far(data.positions.size());
   engine::parallel_for(context, beside.size(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
@@ -128,7 +127,7 @@ TriMesh contour_with_thin_parts(const engine::Context& context, const TriMesh& d
   TriMesh out = without_small_components(contour(context, grid));
   if (out.empty()) return out;
   const std::vector<char> lost =
-      find_lost(context, data, out, kThinFrom * grid.cell_m, kLostUpTo * grid.cell_m);
+      find_lost(context, data, MeshDistance(context, out), kThinFrom * grid.cell_m, kLostUpTo * grid.cell_m);
   if (std::ranges::count(lost, char{1}) == 0) return out;
   for (std::size_t t = 0; t < lost.size(); ++t)
     if (lost[t]) thicken(data, t, grid);
@@ -193,8 +192,9 @@ RebuiltSurface rebuild(const engine::Context& context, const TriMesh& surface, d
   snap(context, data, kMeasuredCells * cell_m, out);
   smooth_made_up(out);
   out.measured_share = measured_share(out);
-  std::vector<char> lost = find_lost(context, surface, out.mesh, kLostFrom * cell_m, kLostUpTo * cell_m);
-  keep_outside(surface, MeshDistance(context, out.mesh), lost);
+  const MeshDistance rebuilt(context, out.mesh);
+  std::vector<char> lost = find_lost(context, surface, rebuilt, kLostFrom * cell_m, kLostUpTo * cell_m);
+  keep_outside(surface, rebuilt, lost);
   out.lost_share = share_of(lost, surface);
   return out;
 }

@@ -57,12 +57,12 @@ engine::Result<double> refine_scan(const engine::Context& context, const ImportO
                                    geometry::RepairedMesh& scan, std::vector<engine::Warning>& warnings) {
   return engine::catch_canceled("The smoothing of noise", [&]() -> engine::Result<double> {
     const double noise = geometry::noise_of(context, scan.mesh);
-    const bool noisy = noise > 0.0, smooths = noisy && !options.keep_noise;
-    if (is_overfine(scan.mesh) && !options.keep_vertices && noisy == smooths)
+    const bool noisy = noise > 0.0, keeps = noisy && options.keep_noise;
+    if (is_overfine(scan.mesh) && !options.keep_vertices && !keeps)
       warnings.push_back(thin_skin(context, noise, scan));
-    else if (smooths)
+    else if (noisy && !keeps)
       scan.mesh.positions = geometry::without_noise(context, scan.mesh, noise);
-    if (noisy == smooths && geometry::folded_share(scan.mesh) > kFolded)
+    if (!keeps && geometry::folded_share(scan.mesh) > kFolded)
       scan.mesh.positions = geometry::without_folds(context, scan.mesh);
     return noise;
   });

@@ -8,9 +8,9 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// Warns of a scan, which has noise or a skin that was closed: of armpits and a crotch that are unlike those
-/// of known bodies; of landmarks around which much of the skin closes holes of the file; and of limbs that
-/// are shorter than those of the other side. O(#V) a landmark.
+/// Warns where a scan, which has noise or a skin that was closed, may be wrong: all of armpits and crotch are
+/// unlike those of known bodies, much of the skin around a landmark closes holes of the file, or a limb is
+/// shorter than that of the other side. O(#V) a landmark.
 void warn_of_scan(const io::ImportedMesh& mesh, const anatomy::Anatomy& anatomy,
                   std::vector<engine::Warning>& warnings);
 
