@@ -112,6 +112,30 @@ TEST_CASE("the suggested ramp is as long as the skin's path at walking pace, and
   CHECK(tryon::suggested_ramp_s({}, motion, skin) == 0.0);
 }
 
+TEST_CASE("a loop is closed by a seam on which the skin is about as fast as in the clip") {
+  const std::vector<Vec3> skin = {{0.0, 0.0, 0.0}, {1.0, 1.0, 0.0}};  // the second is a meter from its joint
+  tryon::BodyMotion motion = elbow(2);
+  const double arc_rad = kTurn_rad - 0.2;
+  const tryon::BodyMotion closed = tryon::closed_loop({}, motion, skin);
+  // The vertex moves at arc_rad m/s in the clip, and its chord back is 2 sin(arc / 2) m.
+  CHECK(closed.clip.duration_s == doctest::Approx(1.0 + 2.0 * std::sin(0.5 * arc_rad) / arc_rad).epsilon(1e-3));
+  tryon::MotionPlayer player(closed, 0.0, rig::Playback::kLoop);
+  std::vector<rig::Affine> world(2);
+  player.joints(0.0, world);
+  double before = turn_of(world[1]), fastest = 0.0;
+  for (int step = 1; step <= 4000; ++step) {
+    player.joints(1e-3 * step, world);
+    fastest = std::max(fastest, std::abs(turn_of(world[1]) - before) / 1e-3);
+    before = turn_of(world[1]);
+  }
+  CHECK(fastest < 2.5 * arc_rad);  // a jump back would be a thousand times as fast
+
+  motion.clip.tracks[0].rotation.value[1] = motion.clip.tracks[0].rotation.value[0];
+  CHECK(tryon::closed_loop({}, motion, skin).clip.duration_s == 1.0);  // its end meets its start
+  motion.clip.duration_s = 0.0;
+  CHECK(tryon::closed_loop({}, motion, skin).clip.duration_s == 0.0);
+}
+
 TEST_CASE("a point that is attached to the skin moves as the skin below it") {
   const geometry::TriMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 2, 1}}};
   const geometry::MeshDistance distance({}, mesh);

@@ -3,59 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "key_values.hpp"
+
 namespace bodice::inline v0_1::rig {
 
 namespace {
-
-using Eigen::Quaterniond;
-
-/// The keys around a time: both the same before the first key and after the last one.
-struct Span {
-  std::size_t before = 0, after = 0;
-  double length_s = 0.0, along = 0.0;  // along: 0 at `before`, 1 at `after`
-};
-
-Span find_span(const std::vector<double>& time_s, double time) {
-  const auto next = std::upper_bound(time_s.begin(), time_s.end(), time);
-  if (next == time_s.begin()) return {};
-  const std::size_t before = static_cast<std::size_t>(next - time_s.begin()) - 1;
-  if (next == time_s.end()) return {before, before};
-  const double length = *next - time_s[before];
-  return {before, before + 1, length, (time - time_s[before]) / length};
-}
-
-Vec3 between(const Vec3& a, const Vec3& b, double along) {
-  return a + along * (b - a);
-}
-Quaterniond between(const Quaterniond& a, const Quaterniond& b, double along) {
-  return a.slerp(along, b);
-}
-
-/// The Hermite spline's four weights: value and tangent at its begin, value and tangent at its end.
-Eigen::Vector4d hermite(double s, double length) {
-  const double s2 = s * s, s3 = s2 * s;
-  return {2 * s3 - 3 * s2 + 1, length * (s3 - 2 * s2 + s), 3 * s2 - 2 * s3, length * (s3 - s2)};
-}
-
-Vec3 blend(const Eigen::Vector4d& w, const Vec3& a, const Vec3& ta, const Vec3& b, const Vec3& tb) {
-  return w[0] * a + w[1] * ta + w[2] * b + w[3] * tb;
-}
-Quaterniond blend(const Eigen::Vector4d& w, const Quaterniond& a, const Quaterniond& ta, const Quaterniond& b,
-                  const Quaterniond& tb) {
-  const Eigen::Vector4d sum = w[0] * a.coeffs() + w[1] * ta.coeffs() + w[2] * b.coeffs() + w[3] * tb.coeffs();
-  return sum.norm() > 0.0 ? Quaterniond(Eigen::Vector4d(sum.normalized())) : a;
-}
-
-template <class T>
-T value_at(const Keys<T>& keys, double time) {
-  const Span span = find_span(keys.time_s, time);
-  const bool cubic = keys.interpolation == Interpolation::kCubic;
-  const auto key = [&](std::size_t k) -> const T& { return keys.value[cubic ? 3 * k + 1 : k]; };
-  if (span.before == span.after || keys.interpolation == Interpolation::kStep) return key(span.before);
-  if (!cubic) return between(key(span.before), key(span.after), span.along);
-  return blend(hermite(span.along, span.length_s), key(span.before), keys.value[3 * span.before + 2],
-               key(span.after), keys.value[3 * span.after]);
-}
 
 void move(const Track& track, double time, LocalTransform& local) {
   if (!track.translation.empty()) local.translation = value_at(track.translation, time);

@@ -272,7 +272,7 @@ engine::Result<tryon::DrapeReport> drape_and_write(Run& run, const DrapeCommand&
   for (const engine::StageTime& stage : draped->report.stages) whole.front().ms -= stage.ms;
   draped->report.stages.push_back({"set-up and judging", whole.front().ms});
   tryon::DrapeReport report = draped->report;
-  if (motion) motion->rig.clips = {motion->clip};
+  if (motion) motion->rig.clips = {std::move(draped->clip)};
   if (auto done = write_outputs(run, command, dressed, std::move(draped).value(), written); !done)
     return std::move(done).error();
   return report;

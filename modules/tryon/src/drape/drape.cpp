@@ -11,6 +11,7 @@
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/stage_timer.hpp>
 #include <bodice/geometry/crossings.hpp>
+#include <bodice/rig/loop.hpp>
 #include <bodice/tryon/garment_reach.hpp>
 #include <bodice/tryon/layers.hpp>
 #include <bodice/tryon/penetration.hpp>
@@ -231,7 +232,6 @@ class Drape {
 engine::Result<DrapeResult> simulate(const engine::Context& context, const PreparedBody& body,
                                      const std::vector<WornGarment>& garments, const DrapeOptions& options,
                                      const Progress& progress) {
-  if (auto good = check(options, body); !good) return std::move(good).error();
   auto all = join(garments);
   if (!all) return all.error();
   const auto tacked = add_tacks(context, garments, options.tack_m, *all);
@@ -284,16 +284,35 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   return result;
 }
 
+/// Closes a clip that is played in a loop, and keeps what was played.
+engine::Result<DrapeResult> play_and_simulate(const engine::Context& context, const PreparedBody& body,
+                                              const std::vector<WornGarment>& garments,
+                                              const DrapeOptions& options, const Progress& progress) {
+  if (!options.motion) return simulate(context, body, garments, options, progress);
+  if (!options.loop) {
+    auto result = simulate(context, body, garments, options, progress);
+    if (result) result->clip = options.motion->clip;
+    return result;
+  }
+  const BodyMotion closed = closed_loop(context, *options.motion, body.skin.input.skin.positions);
+  DrapeOptions with = options;
+  with.motion = &closed;
+  auto result = simulate(context, body, garments, with, progress);
+  if (result) result->clip = rig::repeat(closed.clip, options.frames * options.dt_s);
+  return result;
+}
+
 }  // namespace
 
 engine::Result<DrapeResult> drape(const engine::Context& context, const PreparedBody& body,
                                   const std::vector<WornGarment>& garments, const DrapeOptions& options,
                                   const Progress& progress) {
   return engine::catch_canceled("The drape", [&]() -> engine::Result<DrapeResult> {
-    if (options.order.empty()) return simulate(context, body, garments, options, progress);
+    if (auto good = check(options, body); !good) return std::move(good).error();
+    if (options.order.empty()) return play_and_simulate(context, body, garments, options, progress);
     const auto ordered = order_layers(context, *body.skin.distance, options.order, garments,
                                       kLayersOfGap * options.solver.layer_gap_m);
-    return ordered ? simulate(context, body, *ordered, options, progress) : ordered.error();
+    return ordered ? play_and_simulate(context, body, *ordered, options, progress) : ordered.error();
   });
 }
 

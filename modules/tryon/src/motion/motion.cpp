@@ -7,6 +7,7 @@
 
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/parallel.hpp>
+#include <bodice/rig/loop.hpp>
 
 #include "motion/local_pose.hpp"
 
@@ -17,7 +18,8 @@ using geometry::Vec3;
 
 constexpr double kRampSpeed_m_s = 1.0;  // the speed of a hand in a walk
 constexpr double kShortestRamp_s = 0.25, kLongestRamp_s = 2.0;
-constexpr double kAtRest_m = 1e-4;  // a skin that is this near the bind pose needs no ramp
+constexpr double kAtRest_m = 1e-4;  // a skin that is this near the other pose needs no ramp or seam
+constexpr double kShortestSeam_s = 1.0 / 60.0;
 constexpr std::size_t kPointGrain = 1024;
 
 double farthest_m(const engine::Context& context, std::span<const Vec3> a, std::span<const Vec3> b) {
@@ -40,6 +42,31 @@ std::array<double, 3> barycentric(const Vec3& a, const Vec3& b, const Vec3& c, c
   const double w = std::clamp((b - a).cross(point - a).dot(normal) / twice_area, 0.0, 1.0 - v);
   return {1.0 - v - w, v, w};
 }
+
+/// A skin in the poses of a motion.
+class PosedSkin {
+ public:
+  PosedSkin(const engine::Context& context, const BodyMotion& motion, std::span<const Vec3> skin)
+      : context_(context),
+        motion_(motion),
+        skin_(skin),
+        world_(motion.rig.skeleton.joints.size()),
+        skinning_(world_.size()) {}
+
+  std::vector<Vec3> at(double time_s) {
+    rig::joint_matrices(motion_.rig.skeleton, motion_.clip, time_s, world_);
+    rig::skinning_matrices(motion_.rig.skeleton, world_, skinning_);
+    std::vector<Vec3> posed(skin_.size());
+    rig::skin_linear(context_, skin_, motion_.rig.weights, skinning_, posed);
+    return posed;
+  }
+
+ private:
+  const engine::Context& context_;
+  const BodyMotion& motion_;
+  std::span<const Vec3> skin_;
+  std::vector<rig::Affine> world_, skinning_;  // #J
+};
 
 }  // namespace
 
@@ -70,15 +97,24 @@ void MotionPlayer::joints(double time_s, std::span<rig::Affine> world) {
 
 double suggested_ramp_s(const engine::Context& context, const BodyMotion& motion,
                         std::span<const Vec3> skin) {
-  const std::size_t joints = motion.rig.skeleton.joints.size();
-  std::vector<rig::Affine> world(joints), skinning(joints);
-  rig::joint_matrices(motion.rig.skeleton, motion.clip, 0.0, world);
-  rig::skinning_matrices(motion.rig.skeleton, world, skinning);
-  std::vector<Vec3> posed(skin.size());
-  rig::skin_linear(context, skin, motion.rig.weights, skinning, posed);
-  const double far_m = farthest_m(context, skin, posed);
+  const double far_m = farthest_m(context, skin, PosedSkin(context, motion, skin).at(0.0));
   if (far_m < kAtRest_m) return 0.0;
   return std::clamp(far_m / kRampSpeed_m_s, kShortestRamp_s, kLongestRamp_s);
+}
+
+BodyMotion closed_loop(const engine::Context& context, const BodyMotion& motion, std::span<const Vec3> skin) {
+  const double end_s = motion.clip.duration_s, step_s = std::min(kShortestSeam_s, end_s);
+  if (!(end_s > 0.0)) return motion;
+  PosedSkin posed(context, motion, skin);
+  const std::vector<Vec3> start = posed.at(0.0), end = posed.at(end_s);
+  const double far_m = farthest_m(context, start, end);
+  if (far_m < kAtRest_m) return motion;
+  const double moved_m = std::max(farthest_m(context, start, posed.at(step_s)),
+                                  farthest_m(context, end, posed.at(end_s - step_s)));
+  const double speed_m_s = std::max(kRampSpeed_m_s, moved_m / step_s);
+  BodyMotion closed = motion;
+  closed.clip = rig::close_loop(motion.clip, std::clamp(far_m / speed_m_s, kShortestSeam_s, kLongestRamp_s));
+  return closed;
 }
 
 rig::SkinWeights attach_to_skin(const geometry::TriMesh& mesh, const geometry::MeshDistance& distance,

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <bodice/rig/loop.hpp>
+
 namespace bodice::inline v0_1::tryon {
 namespace {
 
@@ -10,6 +12,9 @@ engine::Result<std::shared_ptr<const SessionMotion>> session_motion_of_shape(
     const engine::Context& context, const SessionMotion& before, std::shared_ptr<const SegmentedSkin> skin) {
   auto motion = motion_of_shape(context, *skin, before.choice, before.playback->motion());
   if (!motion) return std::move(motion).error();
+  // Made motions are made again. A seam of the same length keeps the time within the loop.
+  const double seam_s = before.playback->motion().clip.duration_s - motion->clip.duration_s;
+  if (before.mode == rig::Playback::kLoop) motion->clip = rig::close_loop(motion->clip, seam_s);
   auto same = std::make_shared<SessionMotion>(before);
   same->skin = std::move(skin);
   same->playback = std::make_shared<ClipPlayback>(
@@ -52,6 +57,7 @@ engine::Result<std::shared_ptr<const SessionMotion>> find_session_motion(
   const double ramp_s = wanted.options.ramp_s ? *wanted.options.ramp_s
                                               : suggested_ramp_s(context, *found, skin->input.skin.positions);
   const rig::Playback mode = wanted.options.loop ? rig::Playback::kLoop : rig::Playback::kClamp;
+  if (wanted.options.loop) *found = closed_loop(context, *found, skin->input.skin.positions);
   auto playback =
       std::make_shared<ClipPlayback>(std::make_shared<const BodyMotion>(std::move(found).value()), mode);
   return std::make_shared<const SessionMotion>(

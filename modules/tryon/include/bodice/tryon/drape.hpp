@@ -34,7 +34,9 @@ struct DrapeOptions {
   /// dt_s of the clip.
   const BodyMotion* motion = nullptr;
   std::optional<double> ramp_s;  ///< zero or more; absent: suggested_ramp_s()
-  bool loop = false;             ///< after its end the clip starts over; else its last frame holds
+  /// After its end the clip starts over; where its end does not meet its start, a seam leads back, and its
+  /// seconds count (closed_loop()). Else the last frame holds.
+  bool loop = false;
   /// Pieces of a garment that lie this near to each other at the start stay together; 0: none do.
   double tack_m = kTackWithin_m;
   /// Names of garments from the body outward: each is laid over those before it (order_layers()); empty: they
@@ -97,6 +99,7 @@ struct DrapeReport {
 /// The draped garments over time, and the numbers of the drape.
 struct DrapeResult {
   std::vector<io::GarmentTrack> garments;
+  rig::Clip clip;  ///< what the body played in all frames, laps and seams included; empty if it stands still
   std::vector<std::vector<geometry::Vec3>> body_frames;  ///< skin of a body that moves at each kept frame, #V
   std::vector<std::vector<geometry::Ellipsoid>> proxy_frames;  ///< its ellipsoids at each kept frame, #E
   std::optional<proxy::BodyProxy> proxy;  ///< of body and props, which the cloth met; absent without props

@@ -50,6 +50,12 @@ class MotionPlayer {
 double suggested_ramp_s(const engine::Context& context, const BodyMotion& motion,
                         std::span<const geometry::Vec3> skin);
 
+/// The motion with a clip that can be played over and over: where its end does not meet its start, a seam
+/// leads back (rig::close_loop()) on which no vertex moves much faster than at the clip's ends or than a
+/// walking hand, for at most two seconds. O(#V).
+BodyMotion closed_loop(const engine::Context& context, const BodyMotion& motion,
+                       std::span<const geometry::Vec3> skin);
+
 /// Skin weights of points that move with the skin: those of the closest point of the skin, interpolated in
 /// its triangle. Points and skin (`distance` is of `mesh`) are in the bind pose. Cost: a closest point each.
 rig::SkinWeights attach_to_skin(const geometry::TriMesh& mesh, const geometry::MeshDistance& distance,
