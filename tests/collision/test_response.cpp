@@ -135,24 +135,29 @@ TEST_CASE("a push is limited beyond undoing a path that leads inward, by kernels
   struct Path {
     double from_y, pushed_to_y;
   };
-  // The first path leads inward by 5 mm, which the push may undo; the second leads outward.
+  // The first path leads inward by 5 mm, which the push may undo; the second leads outward. A body that moves
+  // in the same time takes the start of the path with it.
   for (const auto& [from_y, pushed_to_y] : {Path{0.485, 0.486}, Path{0.475, 0.481}})
-    for (const bool exactly : {false, true}) {
-      auto shapes = ball(0.5);
-      // Next to so small an ellipsoid a path of 5 mm is long enough for the exact side.
-      shapes.push_back(ball(0.005)[0]);
-      shapes[1].center = exactly ? Vec3(0.0045, 0.4825, 0.0045) : Vec3(0.0, -0.47, 0.0);
-      const Collider collider(proxy_of(shapes));
-      Cloud cloud;
-      cloud.add(Vec3(0.0, 0.48, 0.0));
-      cloud.add_safe(Vec3(0.0, from_y, 0.0));
-      const ContactReport report = collider.resolve({}, cloud.particles(), {.max_push_m = 0.001f});
-      CAPTURE(exactly);
-      CAPTURE(from_y);
-      CHECK(report.judged_exactly == (exactly ? 1u : 0u));
-      CHECK(report.pending == 1);
-      CHECK(cloud.y[0] == doctest::Approx(pushed_to_y).epsilon(1e-5));
-    }
+    for (const bool exactly : {false, true})
+      for (const double moved_by_y : {0.0, -0.1, 0.1}) {
+        auto shapes = ball(0.5);
+        // Next to so small an ellipsoid a path of 5 mm is long enough for the exact side.
+        shapes.push_back(ball(0.005)[0]);
+        shapes[1].center = exactly ? Vec3(0.0045, 0.4825, 0.0045) : Vec3(0.0, -0.47, 0.0);
+        Collider collider(proxy_of(shapes));
+        for (Ellipsoid& e : shapes) e.center.y() += moved_by_y;
+        if (moved_by_y != 0.0) collider.move_to(shapes, 0.01);
+        Cloud cloud;
+        cloud.add(Vec3(0.0, 0.48 + moved_by_y, 0.0));
+        cloud.add_safe(Vec3(0.0, from_y, 0.0));
+        const ContactReport report = collider.resolve({}, cloud.particles(), {.max_push_m = 0.001f});
+        CAPTURE(exactly);
+        CAPTURE(from_y);
+        CAPTURE(moved_by_y);
+        CHECK(report.judged_exactly == (exactly ? 1u : 0u));
+        CHECK(report.pending == 1);
+        CHECK(double{cloud.y[0]} - moved_by_y == doctest::Approx(pushed_to_y).epsilon(1e-5));
+      }
 }
 
 TEST_CASE("options that are NaN, infinite or negative do no harm") {

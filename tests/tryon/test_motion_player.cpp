@@ -118,7 +118,8 @@ TEST_CASE("a loop is closed by a seam on which the skin is about as fast as in t
   const double arc_rad = kTurn_rad - 0.2;
   const tryon::BodyMotion closed = tryon::closed_loop({}, motion, skin);
   // The vertex moves at arc_rad m/s in the clip, and its chord back is 2 sin(arc / 2) m.
-  CHECK(closed.clip.duration_s == doctest::Approx(1.0 + 2.0 * std::sin(0.5 * arc_rad) / arc_rad).epsilon(1e-3));
+  CHECK(closed.clip.duration_s ==
+        doctest::Approx(1.0 + 2.0 * std::sin(0.5 * arc_rad) / arc_rad).epsilon(1e-3));
   tryon::MotionPlayer player(closed, 0.0, rig::Playback::kLoop);
   std::vector<rig::Affine> world(2);
   player.joints(0.0, world);

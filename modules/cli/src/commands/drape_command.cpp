@@ -52,7 +52,10 @@ void add_motion_options(CLI::App& sub, DrapeCommand& c) {
       ->check(not_empty())
       ->needs(motion)
       ->group(group);
-  sub.add_flag("--loop", c.drape.loop, "start the clip over at its end, led back there where it does not end as it starts")->needs(motion)->group(group);
+  sub.add_flag("--loop", c.drape.loop,
+               "start the clip over at its end, led back there where it does not end as it starts")
+      ->needs(motion)
+      ->group(group);
   sub.add_option(
          "--ramp", c.drape.ramp_s,
          "seconds from the pose of the file to the clip's first frame (default: by how far the skin moves)")

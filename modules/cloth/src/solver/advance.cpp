@@ -21,8 +21,10 @@ namespace {
 constexpr std::size_t kFewFast = 200;
 
 // A particle has all of its friction up to this strain beyond the limit of the fabric, and none at kGripFades
-// more. It loses and regains it within so many seconds, so that a jerk does not cost a sock its hold.
-constexpr float kGripsBeyond = 0.04f, kGripFades = 0.12f, kGripFades_s = 0.25f;
+// more.
+constexpr float kGripsBeyond = 0.04f, kGripFades = 0.12f;
+// Substeps are doubled where more than one particle of so many slips.
+constexpr std::size_t kFewStretched = 1000;
 
 // The speed that all but few particles keep. Those few are slowed where they cross too much cloth in a
 // substep: more substeps for what crushed cloth flings would multiply the time of the frame.
@@ -52,30 +54,25 @@ bool touches_itself(const Plan& plan, const State& s) {
 }
 
 // The share of friction of a particle on a body that moves, by the largest strain of its edges.
-float wanted_grip(float strain, float full) {
+float grip_at(float strain, float full) {
   return strain > full ? std::max(0.0f, 1.0f - (strain - full) / kGripFades) : 1.0f;
 }
 
-// Lets cloth slip that is stretched far beyond the limit of its fabric. A person would yield or let it slide;
-// a clip does not, and friction would hold what the constraints cannot.
-void find_grip(const Plan& plan, State& s) {
+// Lets cloth slip that was stretched far beyond the limit of its fabric when the last frame ended. A person
+// would yield or let it slide; a clip does not, and friction would hold what the constraints cannot.
+void find_grip(State& s) {
   std::vector<float>& grip = s.contacts.grip;
   const float full = static_cast<float>(s.fabric.max_stretch) + kGripsBeyond;
   const bool stretched = s.longest_strain > full;
-  if (!stretched && !s.slips) return;
+  if (!stretched && s.slipping == 0) return;
   std::ranges::fill(s.scratch, 0.0f);
   if (stretched) raise_to_strain(s.stretch, s.strain, full, s.scratch);
-  const float most = static_cast<float>(plan.simulated_s) / kGripFades_s;
-  s.slips = false;
-  for (std::size_t i = 0; i < grip.size(); ++i) {
-    grip[i] = std::clamp(wanted_grip(s.scratch[i], full), grip[i] - most, grip[i] + most);
-    s.slips = s.slips || grip[i] < 1.0f;
-  }
+  for (std::size_t i = 0; i < grip.size(); ++i) grip[i] = grip_at(s.scratch[i], full);
+  s.slipping = static_cast<std::size_t>(std::ranges::count_if(grip, [](float g) { return g < 1.0f; }));
 }
 
 void begin_frame(const engine::Context& context, const Plan& plan, State& s) {
   Particles& p = s.particles;
-  find_grip(plan, s);
   update_air(context, s.options.environment, s.options.seed, s.time_s, p, s.air);
   std::atomic<bool> changed{false};
   engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
@@ -211,8 +208,10 @@ FrameReport advance(const engine::Context& context, const collision::Collider* c
                     State& s) {
   const std::int64_t start_ns = context.clock->now_ns();
   const bool moved = begin_collider(collider, s);
-  const Plan plan = plan_frame(s.options, dt_s, usual_speed(context, s), static_cast<double>(s.max_travel_m),
-                               s.budget.level);
+  find_grip(s);
+  const Pace pace{usual_speed(context, s), static_cast<double>(s.max_travel_m),
+                  moved && s.slipping > s.particles.count() / kFewStretched};
+  const Plan plan = plan_frame(s.options, dt_s, pace, s.budget.level);
   FrameReport report;
   report.substeps = plan.substeps;
   report.simulated_s = plan.simulated_s;

@@ -21,8 +21,7 @@ std::uint32_t dropped(int level) {
 
 }  // namespace
 
-Plan plan_frame(const SolverOptions& options, double dt_s, double top_speed_m_s, double max_travel_m,
-                int level) {
+Plan plan_frame(const SolverOptions& options, double dt_s, const Pace& pace, int level) {
   Plan plan;
   if (!(dt_s >= kLeastFrame_s)) {
     plan.limits = dt_s > 0.0 ? kTimeCut : 0u;
@@ -32,10 +31,11 @@ Plan plan_frame(const SolverOptions& options, double dt_s, double top_speed_m_s,
   plan.limits = dropped(level) | (plan.simulated_s < dt_s ? kTimeCut : 0u);
   const int requested = level >= 3 ? std::max(kFewestSubsteps, options.substeps / 2) : options.substeps;
   plan.travel_m =
-      plan.simulated_s * (top_speed_m_s + plan.simulated_s * options.environment.gravity_m_s2.norm());
+      plan.simulated_s * (pace.speed_m_s + plan.simulated_s * options.environment.gravity_m_s2.norm());
+  const int for_stretch = options.doubled_when_stretched && pace.stretched ? 2 * requested : requested;
   const double wanted =
-      std::max({static_cast<double>(requested), std::ceil(plan.simulated_s / kMaxSubstep_s - 1e-9),
-                std::ceil(plan.travel_m / max_travel_m)});
+      std::max({static_cast<double>(for_stretch), std::ceil(plan.simulated_s / kMaxSubstep_s - 1e-9),
+                std::ceil(plan.travel_m / pace.max_travel_m)});
   plan.substeps = static_cast<int>(std::min(wanted, static_cast<double>(kMaxSubsteps)));
   if (plan.substeps > requested) plan.limits |= kMoreSubsteps;
   plan.substep_s = static_cast<float>(plan.simulated_s / plan.substeps);

@@ -16,10 +16,15 @@ struct Plan {
   std::uint32_t limits = 0;  ///< FrameLimit bits
 };
 
-/// Plans a frame of `dt_s`. `top_speed_m_s` is the speed of the fastest particle, `max_travel_m` the most
-/// that a substep may move a particle, `level` that of the budget.
-Plan plan_frame(const SolverOptions& options, double dt_s, double top_speed_m_s, double max_travel_m,
-                int level);
+/// What a frame begins with.
+struct Pace {
+  double speed_m_s = 0.0;     ///< that of the cloth
+  double max_travel_m = 1.0;  ///< the most that a substep may move a particle
+  bool stretched = false;     ///< whether the body stretches cloth far beyond the limit of its fabric
+};
+
+/// Plans a frame of `dt_s`; `level` is that of the budget.
+Plan plan_frame(const SolverOptions& options, double dt_s, const Pace& pace, int level);
 
 /// The level of quality. At 0 nothing is dropped; each further level adds one of the budget's FrameLimit
 /// bits.

@@ -42,7 +42,7 @@ struct State {
   std::vector<float> strain;    ///< one value a slot of edges, at the end of the frame before
   float longest_strain = 0.0f;  ///< the largest of them
   std::vector<float> scratch;   ///< #P: values that the beginning of a frame needs for a moment
-  bool slips = false;           ///< whether some particle lacks a share of its friction
+  std::size_t slipping = 0;     ///< particles that lack a share of their friction on a body that moves
   Selection selection;
   float max_travel_m = 0.0f;  ///< the most that a particle may move in a substep
   double time_s = 0.0;        ///< simulated time

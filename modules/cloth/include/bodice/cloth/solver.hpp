@@ -25,8 +25,11 @@ struct Environment {
 
 /// How a garment is simulated.
 struct SolverOptions {
-  int substeps = 8;            ///< substeps a frame; more of them make cloth stiffer
-  int iterations = 1;          ///< sweeps over the constraints a substep
+  int substeps = 8;    ///< substeps a frame; more of them make cloth stiffer
+  int iterations = 1;  ///< sweeps over the constraints a substep
+  /// Whether frames take twice the substeps while a body that moves stretches cloth far beyond the limit of
+  /// its fabric. A hem that a stride catches is else pulled through the legs.
+  bool doubled_when_stretched = false;
   double thickness_m = 0.001;  ///< distance that particles, edges and triangles keep from the proxy
   /// Whether edges and triangles keep the thickness between their particles as well. Not with kPaper.
   bool face_contact = true;
@@ -59,8 +62,8 @@ struct Tack {
 enum FrameLimit : std::uint32_t {
   kTimeCut = 1u << 0,  ///< dt_s was longer than kMaxSubsteps substeps may be, and the rest was dropped; or it
                        ///< was under 1e-15 s and was dropped
-  kMoreSubsteps =
-      1u << 1,  ///< there were more substeps than the option has, because dt_s or a speed was large
+  kMoreSubsteps = 1u << 1,  ///< there were more substeps than the option has: dt_s, a speed or the stretch of
+                            ///< cloth on a moving body was large
   kSpeedClamped = 1u << 2,  ///< a particle was slowed, because it would have crossed kMaxTravel in a substep
   kParticlesReset = 1u << 3,  ///< a particle became NaN or infinite and was returned to its last position
   kNoSelfContact = 1u << 4,   ///< the budget dropped self-contact

@@ -83,7 +83,7 @@ class PushOut {
   /// Contacts with a push that the kernel does not settle.
   HWY_INLINE M unsettled(int i, V depth, V length2) const;
   /// The longest that a push is allowed to be: the path that it leads back against does not count.
-  HWY_INLINE V longest_push(VI lanes, V3 p, V3 push) const;
+  HWY_INLINE V longest_push(VI lanes, VI owner, V3 p, V3 push) const;
   /// The velocity after the contact, for particles that were pushed from p to `position`.
   HWY_INLINE V3 velocity_after(int i, VI lanes, V3 p, V3 position) const;
 
@@ -178,10 +178,11 @@ HWY_INLINE M PushOut<Surface>::unsettled(int i, V depth, V length2) const {
 }
 
 template <class Surface>
-HWY_INLINE V PushOut<Surface>::longest_push(VI lanes, V3 p, V3 push) const {
+HWY_INLINE V PushOut<Surface>::longest_push(VI lanes, VI owner, V3 p, V3 push) const {
   const V limit = all(parameters_.max_push_m);
   if (!batch_.has_safe) return limit;
-  const V3 path = p - safe_positions_of(batch_, lanes);
+  V3 path = p - safe_positions_of(batch_, lanes);
+  if (parameters_.motion) path = path - carried(parameters_, p, owner);
   const M against = hn::Lt(dot(path, push), hn::Zero(f));
   return hn::Add(limit, hn::IfThenElseZero(against, hn::Sqrt(dot(path, path))));
 }
@@ -197,7 +198,7 @@ HWY_INLINE void PushOut<Surface>::write_responses(int i, M contact, V& deepest) 
   const M hard = hn::And(contact, unsettled(i, depth, length2));
   for_particles(hard, hard, in_range_.lane + i, [&](int lane, bool) { out_.left_to_exact.set(lane, true); });
   contact = hn::AndNot(hard, contact);
-  const V limit = longest_push(lanes, p, push);
+  const V limit = longest_push(lanes, hn::Load(I(), state_.plane[0].ellipsoid + i), p, push);
   const M pending = hn::And(contact, hn::Gt(length2, hn::Mul(limit, limit)));
   V3 position = pushed_to;
   if (!hn::AllFalse(f, pending)) {

@@ -69,14 +69,19 @@ HWY_INLINE V3 surface_velocity(const SurfaceMotion* motion, VI owner, V3 x) {
   return V3{dot(r0, x), dot(r1, x), dot(r2, x)} + translation;
 }
 
+/// The displacement of the material of an ellipsoid at p since the safe positions. Precondition: the body
+/// moves.
+HWY_INLINE V3 carried(const ResponseParameters& parameters, V3 p, VI owner) {
+  return scaled(surface_velocity(parameters.motion, owner, p), all(parameters.dt_s));
+}
+
 /// Paths longer than the limit, relative to the ellipsoid that owns the particle. Without an owner any
 /// ellipsoid may have passed by, so that the limit is reduced by the body's displacement.
 HWY_INLINE M long_paths(V3 path, const ResponseParameters& parameters, V3 p, VI owner, float limit_m) {
   V limit = all(limit_m);
   if (parameters.motion) {
-    const V3 carried = scaled(surface_velocity(parameters.motion, owner, p), all(parameters.dt_s));
     const M owned = hn::RebindMask(f, hn::Gt(owner, hn::Set(I(), -1)));
-    path = select(owned, path - carried, path);
+    path = select(owned, path - carried(parameters, p, owner), path);
     limit = hn::IfThenElse(owned, limit, all(std::max(0.0f, limit_m - parameters.travel_m)));
   }
   return hn::Ge(dot(path, path), hn::Mul(limit, limit));

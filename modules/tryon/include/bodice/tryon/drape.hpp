@@ -25,7 +25,7 @@ struct DrapeOptions {
   std::optional<cloth::Fabric> fabric;  ///< absent: cotton
   /// Options of the solver, except two: thickness_m is that below, and for a proxy of tier paper the response
   /// is the paper's. Two sweeps keep the stretch of cotton under 5 % at 95 %.
-  cloth::SolverOptions solver = {.substeps = 16, .iterations = 2};
+  cloth::SolverOptions solver = {.substeps = 16, .iterations = 2, .doubled_when_stretched = true};
   /// Distance between cloth and skin; absent: known_thickness_m(), and on a body that moves the most of it
   /// and of the same over poses of the clip.
   std::optional<double> thickness_m;

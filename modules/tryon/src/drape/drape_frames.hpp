@@ -1,0 +1,73 @@
+// A drape in progress: frames of cloth on a body, and what is measured and recorded of them.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <bodice/tryon/drape.hpp>
+#include <bodice/tryon/garment_reach.hpp>
+#include <bodice/tryon/penetration.hpp>
+
+#include "drape/recorder.hpp"
+#include "motion/moving_body.hpp"
+
+namespace bodice::inline v0_1::tryon {
+
+/// The cloth, and the body twice: the one that the cloth meets, of which tables beyond the garments' reach
+/// stay as at rest; and the whole of it, which the report judges.
+struct Scene {
+  const Wardrobe& all;
+  cloth::Solver& solver;
+  MovingBody met, judged;
+};
+
+/// Fails where the proxy cannot follow the rig of a body that moves.
+engine::Result<Scene> make_scene(const Wardrobe& all, cloth::Solver& solver, const PreparedBody& body,
+                                 const proxy::BodyProxy& with_props, bool moves);
+
+/// A drape in progress: cloth, body, and what is recorded of them.
+class Drape {
+ public:
+  Drape(const engine::Context& context, const DrapeOptions& options, Scene& scene, Recorder& recorder,
+        DrapeResult& result);
+
+  /// Puts pins on the body where it stands, in the bind pose.
+  void hold(double thickness_m, const rig::SkinWeights* skin_weights, const PreparedBody& body);
+
+  /// Brings a body that moves from the bind pose to the clip's first frame.
+  engine::Result<void> ramp();
+
+  /// Runs all frames and measures each.
+  engine::Result<void> run(const Progress& progress);
+
+  std::span<const geometry::Vec3> positions() const { return positions_; }
+
+  /// Measures how each garment lies now, and warns of what does not fit.
+  void measure_garments(const std::vector<WornGarment>& garments, const PreparedBody& body,
+                        const cloth::Fabric& fabric);
+
+  /// Colors the tracks by how the garments lie now.
+  void color(const FitScale& scale, const std::vector<WornGarment>& garments,
+             std::vector<io::GarmentTrack>& tracks);
+
+ private:
+  /// Moves the body to a second of its clip, negative ones on the ramp, and pins with it.
+  engine::Result<void> pose(double time_s, double dt_s);
+  /// Offers a frame to the recorder, and judges it if it is kept.
+  void offer(int frame, const Penetration& depth);
+
+  const engine::Context& context_;
+  const DrapeOptions& options_;
+  Scene& scene_;
+  Recorder& recorder_;
+  DrapeResult& result_;
+  std::optional<MotionPlayer> player_;        // of a body that moves
+  std::vector<rig::Affine> joints_;           // #J
+  std::vector<geometry::Vec3> positions_;     // #vertices of all garments
+  GarmentReach reach_;                        // of positions_
+  std::vector<geometry::Vec3> held_, posed_;  // pins in the bind pose and in this one
+  rig::SkinWeights held_weights_;
+};
+
+}  // namespace bodice::tryon
