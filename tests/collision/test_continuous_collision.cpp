@@ -67,7 +67,8 @@ Shots shoot(const std::vector<Ellipsoid>& shapes, const Vec3& origin, double spe
 
 }  // namespace
 
-TEST_CASE("none of 100,000 shots at up to 1,000 m/s passes through a union, with and without relief") {
+TEST_CASE("none of 100,000 shots at up to 1,000 m/s passes through a union, with and without relief" *
+          doctest::test_suite("long")) {
   const auto shapes = random_ellipsoids(3, 12, 0.4, 0.05, 0.2);
   const auto data = data_of(shapes);
   for (const bool relief : {false, true}) {

@@ -193,7 +193,8 @@ TEST_CASE("after a cover, queries with a limit have the bits of those without") 
   CHECK(other == 0);
 }
 
-TEST_CASE("a cover gives the same bits for any number of workers, and allocates nothing once warm") {
+TEST_CASE("a cover gives the same bits for any number of workers, and allocates nothing once warm" *
+          doctest::test_suite("long")) {
   const auto proxy = scene();
   Collider first(proxy);
   const Skin skin = swollen_skin(first);

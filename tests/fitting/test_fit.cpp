@@ -53,7 +53,8 @@ TEST_CASE("fit: every tier recovers three separate ellipsoids from their skin") 
   }
 }
 
-TEST_CASE("fit: where ellipsoids of a bent skin do not return to the skin, those of the skin itself serve") {
+TEST_CASE("fit: where ellipsoids of a bent skin do not return to the skin, those of the skin itself serve" *
+          doctest::test_suite("long")) {
   const Skin skin = three_ellipsoids();
   FitOptions options = options_for(Tier::kRelief, 6);
   const auto as_it_is = fitting::fit({}, skin.view(), options);

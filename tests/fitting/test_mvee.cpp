@@ -97,7 +97,7 @@ TEST_CASE("mvee: points on a known ellipsoid give that ellipsoid, rotated, scale
     }
 }
 
-TEST_CASE("mvee: all of a hundred thousand small sets are certified") {
+TEST_CASE("mvee: all of a hundred thousand small sets are certified" * doctest::test_suite("long")) {
   engine::Random random(11);
   int uncertified = 0, not_finite = 0, violated = 0;
   double worst_gap = 0.0;
