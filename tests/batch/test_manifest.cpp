@@ -56,6 +56,17 @@ TEST_CASE("a manifest that is missing, a folder or a pipe fails in one sentence"
   CHECK(empty->end.total == 0);
 }
 
+TEST_CASE("a file without any job, such as a mesh, is refused for its first line, and nothing is written") {
+  for (const std::string name : {"body.obj", "jobs.csv"}) {
+    BatchFolder folder({"v 0 0 0", "v 1,0 0", "f 1,2 3"}, name);
+    const auto result = folder.run();
+    REQUIRE_FALSE(result.ok());
+    CHECK(result.error().message.find("There is no job in the manifest.") != std::string::npos);
+    CHECK(result.error().message.find(name + (name == "jobs.csv" ? ":2: " : ":1: ")) != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(folder / "out" / "log"));
+  }
+}
+
 TEST_CASE("lines of any bytes are jobs or are named") {
   const std::string deep(900'000, '[');
   const std::string long_line = R"({"n": ")" + std::string(2'000'000, 'x') + "\"}";

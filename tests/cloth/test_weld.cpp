@@ -106,12 +106,12 @@ TEST_CASE("weld: a garment without a usable triangle fails with kUnusableGeometr
   }
 }
 
-TEST_CASE("positions can be set; lengths at rest stay, and what does not fit is ignored") {
+TEST_CASE("positions can be set; lengths at rest stay, and what does not fit is refused") {
   const TriMesh mesh = sheet(4, 4, 0.4, 0.4, Vec3(-0.2, 1.0, -0.2));
   bodice::cloth::Solver solver = make_solver(mesh, {}, cotton(), {});
   std::vector<Vec3> wider = mesh.positions;
   for (Vec3& p : wider) p = Vec3(1.1 * p.x(), p.y(), 1.1 * p.z());
-  solver.set_positions(wider);
+  CHECK(solver.set_positions(wider));
   const auto farthest_m = [&] {
     double most = 0.0;
     const std::vector<Vec3> now = positions(solver, wider.size());
@@ -120,9 +120,9 @@ TEST_CASE("positions can be set; lengths at rest stay, and what does not fit is 
   };
   CHECK(farthest_m() < 1e-6);
   CHECK(solver.step({}, 0.0).stretch_max == doctest::Approx(0.1).epsilon(1e-3));
-  solver.set_positions(std::span(mesh.positions).first(3));
+  CHECK(!solver.set_positions(std::span(mesh.positions).first(3)));
   std::vector<Vec3> broken = mesh.positions;
   broken[7].y() = std::numeric_limits<double>::quiet_NaN();
-  solver.set_positions(broken);
+  CHECK(!solver.set_positions(broken));
   CHECK(farthest_m() < 1e-6);
 }

@@ -129,7 +129,8 @@ engine::Result<void> Manifest::build(const Shard& shard, const engine::CancelTok
   std::vector<Index> index;
   index.reserve(count);
   std::uint32_t number = 0;
-  std::optional<Error> broken;
+  std::optional<Error> broken, first_that_is_no_job;
+  bool has_jobs = false;
   readable = readable && for_each_line(descriptor_, [&](std::uint64_t offset, std::string_view text) {
                ++number;
                if (cancel.canceled()) return;
@@ -146,10 +147,13 @@ engine::Result<void> Manifest::build(const Shard& shard, const engine::CancelTok
                item.entry.length = static_cast<std::uint32_t>(line.size());
                item.entry.line = number & 0x7fffffffu;
                Sha256 hash;
-               if (const auto job = parse(line, number))
+               if (const auto job = parse(line, number)) {
                  hash.add("job" + work_->shared(*job));
-               else
+                 has_jobs = true;
+               } else {
                  hash.add("line" + std::to_string(number));  // a broken line shares nothing
+                 if (!first_that_is_no_job) first_that_is_no_job = job.error();
+               }
                const auto bytes = hash.finish();
                std::memcpy(item.share.data(), bytes.data(), sizeof item.share);
                index.push_back(item);
@@ -157,6 +161,9 @@ engine::Result<void> Manifest::build(const Shard& shard, const engine::CancelTok
   if (!readable) return unreadable(file_, "cannot be read", "Check the disk.");
   if (broken) return unreadable(file_, "has a broken first line", "Name the columns there.");
   if (cancel.canceled()) return Error{ErrorCode::kCanceled, "The batch was canceled.", ""};
+  if (!has_jobs && first_that_is_no_job)
+    return Error{ErrorCode::kUnreadable, "There is no job in the manifest. " + first_that_is_no_job->message,
+                 first_that_is_no_job->remedy};
   lines_ = index.size();
 
   std::ranges::sort(index, {},

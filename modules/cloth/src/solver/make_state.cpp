@@ -120,9 +120,9 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   return s;
 }
 
-void set_positions(std::span<const Vec3> world_positions, State& s) {
-  if (world_positions.size() != s.particle_of_vertex.size()) return;
-  if (!std::ranges::all_of(world_positions, [](const Vec3& p) { return p.allFinite(); })) return;
+bool set_positions(std::span<const Vec3> world_positions, State& s) {
+  if (world_positions.size() != s.particle_of_vertex.size()) return false;
+  if (!std::ranges::all_of(world_positions, [](const Vec3& p) { return p.allFinite(); })) return false;
   Particles& p = s.particles;
   for (std::size_t v = world_positions.size(); v-- > 0;) {
     const Index i = s.particle_of_vertex[v];
@@ -135,6 +135,7 @@ void set_positions(std::span<const Vec3> world_positions, State& s) {
   wake_all(s.sleep);
   s.self.sided = false, forget_pairs(s.self);
   forget_owners(s.contacts.motion);
+  return true;
 }
 
 }  // namespace bodice::cloth

@@ -36,8 +36,8 @@ FrameReport Solver::step(const engine::Context& context, double dt_s) {
   return advance(whole, nullptr, dt_s, impl_->state);
 }
 
-void Solver::set_positions(std::span<const geometry::Vec3> world_positions) {
-  cloth::set_positions(world_positions, impl_->state);
+bool Solver::set_positions(std::span<const geometry::Vec3> world_positions) {
+  return cloth::set_positions(world_positions, impl_->state);
 }
 
 void Solver::move_pins(std::span<const geometry::Vec3> world_positions) {

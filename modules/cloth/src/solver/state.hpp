@@ -58,7 +58,7 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
                                  std::span<const Tack> tacks = {});
 
 /// Implements Solver::set_positions().
-void set_positions(std::span<const Vec3> world_positions, State& state);
+bool set_positions(std::span<const Vec3> world_positions, State& state);
 
 /// Advances by one frame.
 FrameReport advance(const engine::Context& context, const collision::Collider* collider, double dt_s,

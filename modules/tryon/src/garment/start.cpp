@@ -79,7 +79,7 @@ double lift_out(const engine::Context& context, const SegmentedSkin& skin,
   for (std::size_t v = 0; v < lifted.size(); ++v)
     farthest_m = std::max(farthest_m, (lifted[v] - wardrobe.mesh.positions[v]).norm());
   if (farthest_m == 0.0) return 0.0;
-  solver.set_positions(lifted);
+  if (!solver.set_positions(lifted)) return 0.0;  // a position that is not finite: the garment stays
   wardrobe.mesh.positions = std::move(lifted);
   return farthest_m;
 }

@@ -149,8 +149,8 @@ class Solver {
 
   /// Puts the garment (#V, world meters), at rest, where it begins when that is not where it was made;
   /// lengths at rest stay those of make(). Vertices that became one particle take the position of the first.
-  /// The call is ignored if the number differs or a value is not finite.
-  void set_positions(std::span<const geometry::Vec3> world_positions);
+  /// Returns false, and changes nothing, if the number differs or a value is not finite.
+  [[nodiscard]] bool set_positions(std::span<const geometry::Vec3> world_positions);
   /// Sets the positions of the pinned vertices at the end of the next step, in the order given to make().
   /// They move there in a straight line over the substeps. A value that is not finite leaves its pin
   /// unchanged; a new target wakes all sleeping particles.
