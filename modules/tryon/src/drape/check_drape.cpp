@@ -6,11 +6,29 @@
 
 #include <bodice/engine/message.hpp>
 
+#include "garment/check_garment.hpp"
+
 namespace bodice::inline v0_1::tryon {
 
 namespace {
+
 constexpr double kMostRamp_s = 60.0;
+// A garment with all but few vertices this near to the skin, and most of its area, is the body itself.
+constexpr double kOnSkin_m = 1e-4, kMostBeside = 0.01, kLeastOfSkin = 0.9;
+
+bool is_the_skin(const geometry::TriMesh& garment, const SegmentedSkin& skin) {
+  if (surface_area(garment) < kLeastOfSkin * surface_area(skin.input.skin)) return false;
+  const std::size_t most =
+      static_cast<std::size_t>(kMostBeside * static_cast<double>(garment.positions.size()));
+  std::size_t off = 0;
+  for (const geometry::Vec3& p : garment.positions) {
+    const bool near = p.allFinite() && (skin.distance->closest_point(p).point - p).norm() < kOnSkin_m;
+    if (!near && ++off > most) return false;
+  }
+  return !garment.positions.empty();
 }
+
+}  // namespace
 
 engine::Result<void> check(const DrapeOptions& options, const PreparedBody& body) {
   const auto bad = [](std::string what, std::string remedy) {
@@ -27,6 +45,17 @@ engine::Result<void> check(const DrapeOptions& options, const PreparedBody& body
   if (options.ramp_s && !(*options.ramp_s >= 0.0 && *options.ramp_s <= kMostRamp_s))
     return bad(engine::message("ramp_s is ", *options.ramp_s), "Give seconds, 0 to 60.");
   if (options.motion) return check(*options.motion, body.skin.input.skin.positions.size());
+  return {};
+}
+
+engine::Result<void> check(const std::vector<WornGarment>& garments, const PreparedBody& body) {
+  for (const WornGarment& garment : garments) {
+    if (auto good = check_triangles(garment.mesh, garment.name); !good) return good;
+    if (is_the_skin(garment.mesh, body.skin))
+      return engine::Error{engine::ErrorCode::kInvalidArgument,
+                           garment.name + ": this garment is the skin of the body itself.",
+                           "Name the garment's own file or mesh."};
+  }
   return {};
 }
 

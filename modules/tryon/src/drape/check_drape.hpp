@@ -1,11 +1,18 @@
 // Whether the options of a drape are in their ranges.
 #pragma once
 
+#include <vector>
+
 #include <bodice/tryon/drape.hpp>
 
 namespace bodice::inline v0_1::tryon {
 
 /// Fails with kInvalidArgument, naming the option and its range.
 engine::Result<void> check(const DrapeOptions& options, const PreparedBody& body);
+
+/// Fails with kInvalidArgument, naming the garment that is the body's own skin: its layers are pressed
+/// together from the first frame on, at minutes a frame. Cost: a closest point a vertex where it is, else of
+/// a few vertices.
+engine::Result<void> check(const std::vector<WornGarment>& garments, const PreparedBody& body);
 
 }  // namespace bodice::tryon

@@ -140,6 +140,7 @@ engine::Result<DrapeResult> drape(const engine::Context& context, const Prepared
                                   const Progress& progress) {
   return engine::catch_canceled("The drape", [&]() -> engine::Result<DrapeResult> {
     if (auto good = check(options, body); !good) return std::move(good).error();
+    if (auto good = check(garments, body); !good) return std::move(good).error();
     if (options.order.empty()) return play_and_simulate(context, body, garments, options, progress);
     const auto ordered = order_layers(context, *body.skin.distance, options.order, garments,
                                       kLayersOfGap * options.solver.layer_gap_m);
