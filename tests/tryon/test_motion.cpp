@@ -203,6 +203,36 @@ TEST_CASE("without a ramp the first kept frame shows the clip's first pose, not 
   CHECK(from_bind_m > 0.05);
 }
 
+TEST_CASE("a drape in a loop leads back to the clip's start without a jump, and keeps all laps of the clip") {
+  Walker w = walker({}, "walk");
+  w.motion.clip.duration_s *= 0.4;  // its end is far from its start
+  geometry::TriMesh sheet = bodice_test::sheet(0.2, 0.2, 4, 4);
+  for (Vec3& p : sheet.positions) p.y() += w.body.skin.anatomy.stature_m + 0.1;
+  w.worn = {{.name = "sheet", .mesh = std::move(sheet)}};
+  tryon::DrapeOptions options{.frames = 60, .kept_frames = 61, .motion = &w.motion, .ramp_s = 0.0};
+  options.loop = true;
+  options.solver.substeps = 2;
+  REQUIRE(w.motion.clip.duration_s < 0.5 * options.frames * options.dt_s);
+  const auto draped = tryon::drape({}, w.body, w.worn, options);
+  REQUIRE_MESSAGE(draped.ok(), draped.error().sentence());
+  CHECK(draped->clip.duration_s == doctest::Approx(options.frames * options.dt_s));
+  REQUIRE(draped->body_frames.size() == 61);
+  const auto farthest_m = [&](std::size_t i, std::size_t j) {
+    double most = 0.0;
+    for (std::size_t v = 0; v < draped->body_frames[i].size(); ++v)
+      most = std::max(most, (draped->body_frames[i][v] - draped->body_frames[j][v]).norm());
+    return most;
+  };
+  const auto end = static_cast<std::size_t>(w.motion.clip.duration_s / options.dt_s);
+  double fastest_m = 0.0, fastest_in_clip_m = 0.0;
+  for (std::size_t frame = 1; frame <= 60; ++frame) {
+    fastest_m = std::max(fastest_m, farthest_m(frame, frame - 1));
+    if (frame <= end) fastest_in_clip_m = std::max(fastest_in_clip_m, farthest_m(frame, frame - 1));
+  }
+  CHECK(farthest_m(end, 0) > 4.0 * fastest_in_clip_m);  // what a jump would be
+  CHECK(fastest_m < 2.5 * fastest_in_clip_m);
+}
+
 TEST_CASE("a body with a rig that its proxy is not bound to does not move, and both are counted") {
   Walker w = walker({}, "walk");
   auto other = std::make_shared<rig::Rig>(*w.body.skin.rig);

@@ -94,6 +94,25 @@ TEST_CASE("a body comes to its clip by a ramp, plays it, waits while paused, and
   CHECK(height_of_left_knee(session) == doctest::Approx(knee_m).epsilon(1e-6));
 }
 
+TEST_CASE("a loop that ends far from its start is led back without a jump") {
+  const auto session = walking("sit");
+  std::vector<Vec3> before(session->body()->skin->input.skin.positions.size()), now(before.size());
+  for (int frame = 0; frame < 10; ++frame) session->frame(kFrame_s);  // the ramp from the bind pose
+  session->skin_positions(before);
+  double seated_m = 1e9, standing_m = 0.0, farthest_m = 0.0;
+  for (int frame = 0; frame < 420; ++frame) {  // more than a lap
+    session->frame(kFrame_s);
+    session->skin_positions(now);
+    for (std::size_t v = 0; v < now.size(); ++v)
+      farthest_m = std::max(farthest_m, (now[v] - before[v]).norm());
+    before.swap(now);
+    const double height_m = geometry::bounding_box(before).high.y();
+    seated_m = std::min(seated_m, height_m), standing_m = std::max(standing_m, height_m);
+  }
+  CHECK(standing_m - seated_m > 0.2);
+  CHECK(farthest_m < 0.06);
+}
+
 TEST_CASE("tables near the garments are those of the whole pose, tables out of their reach those at rest") {
   tryon::SessionOptions options = moving(proxy::Tier::kRelief);
   options.fit.max_ellipsoids = 60;

@@ -3,36 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include <bodice/rig/lead.hpp>
+
 #include "key_values.hpp"
 
 namespace bodice::inline v0_1::rig {
 
 namespace {
 
-using Eigen::Quaterniond;
-
-// A seam continues the clip's end, and reaches its start, by the clip's own motion mirrored in time. The
-// motion fades over this time, because all of a fast clip, mirrored, would bend joints too far.
-constexpr double kLead_s = 0.1;
 constexpr double kKeysPerSecond = 60.0;  // straight lines between keys this dense look smooth
 constexpr int kFewestKeys = 4;
-
-double faded(double time_s) {
-  return kLead_s * std::tanh(time_s / kLead_s);
-}
-
-/// A weight that rises from 0 to 1 without a jerk at either end.
-double smooth_step(double t) {
-  return t * t * (3.0 - 2.0 * t);
-}
-
-/// What lies as far beyond `now` as `other` lies on its other side.
-Vec3 mirrored(const Vec3& now, const Vec3& other) {
-  return 2.0 * now - other;
-}
-Quaterniond mirrored(const Quaterniond& now, const Quaterniond& other) {
-  return now * other.conjugate() * now;
-}
 
 template <class T>
 void append(Keys<T>& keys, double time_s, const T& value) {
@@ -69,7 +49,8 @@ Keys<T> lines(const Keys<T>& keys, double end_s) {
 
 enum class Ends { kMove, kRest };
 
-/// The keys, and a seam that leads from their end to their start: with their velocities where the ends move.
+/// The keys, and a seam that leads from their end to their start. Where the ends move, it continues the end
+/// and reaches the start by the keys' own motion, mirrored in time.
 template <class T>
 Keys<T> closed(const Keys<T>& keys, double end_s, double seam_s, Ends ends) {
   Keys<T> closed = lines(keys, end_s);
@@ -80,8 +61,8 @@ Keys<T> closed(const Keys<T>& keys, double end_s, double seam_s, Ends ends) {
     const double after_s = seam_s * piece / pieces;
     T end = value(end_s), start = value(0.0);
     if (ends == Ends::kMove) {
-      end = mirrored(end, value(end_s - faded(after_s)));
-      start = mirrored(start, value(faded(seam_s - after_s)));
+      end = mirrored(end, value(end_s - lead_s(after_s)));
+      start = mirrored(start, value(lead_s(seam_s - after_s)));
     }
     append(closed, end_s + after_s, T(between(end, start, smooth_step(after_s / seam_s))));
   }

@@ -4,6 +4,7 @@
 
 #include <bodice/rig/clip.hpp>
 
+#include "key_values.hpp"
 #include "skeleton_errors.hpp"
 #include "tolerances.hpp"
 
@@ -34,9 +35,8 @@ std::string flaw_of(const Keys<T>& keys, const char* kind) {
 
 template <class T, class Flawed>
 bool any_key(const Keys<T>& keys, Flawed&& flawed) {
-  const bool cubic = keys.interpolation == Interpolation::kCubic;
   for (std::size_t k = 0; k < keys.time_s.size(); ++k)
-    if (flawed(keys.value[cubic ? 3 * k + 1 : k])) return true;
+    if (flawed(key_value(keys, k))) return true;
   return false;
 }
 

@@ -12,7 +12,7 @@ namespace bodice::inline v0_1::anatomy {
 struct NamedFold {
   body::LandmarkId id;
   body::Part part;   ///< the limb that begins there
-  const char* code;  ///< of the warning that it is in doubt
+  const char* code;  ///< code of the warning that doubts it
   const char* name;  ///< for the middle of a sentence
 };
 

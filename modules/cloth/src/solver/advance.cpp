@@ -208,7 +208,7 @@ FrameReport advance(const engine::Context& context, const collision::Collider* c
                     State& s) {
   const std::int64_t start_ns = context.clock->now_ns();
   const bool moved = begin_collider(collider, s);
-  find_grip(s);
+  if (moved) find_grip(s);
   const Pace pace{usual_speed(context, s), static_cast<double>(s.max_travel_m),
                   moved && s.slipping > s.particles.count() / kFewStretched};
   const Plan plan = plan_frame(s.options, dt_s, pace, s.budget.level);

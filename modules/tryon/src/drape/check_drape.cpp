@@ -6,8 +6,6 @@
 
 #include <bodice/engine/message.hpp>
 
-#include "garment/check_garment.hpp"
-
 namespace bodice::inline v0_1::tryon {
 
 namespace {
@@ -50,7 +48,6 @@ engine::Result<void> check(const DrapeOptions& options, const PreparedBody& body
 
 engine::Result<void> check(const std::vector<WornGarment>& garments, const PreparedBody& body) {
   for (const WornGarment& garment : garments) {
-    if (auto good = check_triangles(garment.mesh, garment.name); !good) return good;
     if (is_the_skin(garment.mesh, body.skin))
       return engine::Error{engine::ErrorCode::kInvalidArgument,
                            garment.name + ": this garment is the skin of the body itself.",

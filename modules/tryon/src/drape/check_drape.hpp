@@ -12,7 +12,7 @@ engine::Result<void> check(const DrapeOptions& options, const PreparedBody& body
 
 /// Fails with kInvalidArgument, naming the garment that is the body's own skin: its layers are pressed
 /// together from the first frame on, at minutes a frame. Cost: a closest point a vertex where it is, else of
-/// a few vertices.
+/// a few vertices. Precondition: its triangles have vertices.
 engine::Result<void> check(const std::vector<WornGarment>& garments, const PreparedBody& body);
 
 }  // namespace bodice::tryon

@@ -65,6 +65,7 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
                                      const Progress& progress) {
   auto all = join(garments);
   if (!all) return all.error();
+  if (auto good = check(garments, body); !good) return std::move(good).error();
   const auto tacked = add_tacks(context, garments, options.tack_m, *all);
   const auto fabric = fabric_or_cotton(options.fabric);
   if (!fabric) return fabric.error();
@@ -119,17 +120,15 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
 engine::Result<DrapeResult> play_and_simulate(const engine::Context& context, const PreparedBody& body,
                                               const std::vector<WornGarment>& garments,
                                               const DrapeOptions& options, const Progress& progress) {
-  if (!options.motion) return simulate(context, body, garments, options, progress);
-  if (!options.loop) {
-    auto result = simulate(context, body, garments, options, progress);
-    if (result) result->clip = options.motion->clip;
-    return result;
-  }
-  const BodyMotion closed = closed_loop(context, *options.motion, body.skin.input.skin.positions);
   DrapeOptions with = options;
-  with.motion = &closed;
+  std::optional<BodyMotion> closed;
+  if (options.motion && options.loop)
+    with.motion = &closed.emplace(closed_loop(context, *options.motion, body.skin.input.skin.positions));
   auto result = simulate(context, body, garments, with, progress);
-  if (result) result->clip = rig::repeat(closed.clip, options.frames * options.dt_s);
+  if (result && closed)
+    result->clip = rig::repeat(closed->clip, options.frames * options.dt_s);
+  else if (result && options.motion)
+    result->clip = options.motion->clip;
   return result;
 }
 
@@ -140,7 +139,6 @@ engine::Result<DrapeResult> drape(const engine::Context& context, const Prepared
                                   const Progress& progress) {
   return engine::catch_canceled("The drape", [&]() -> engine::Result<DrapeResult> {
     if (auto good = check(options, body); !good) return std::move(good).error();
-    if (auto good = check(garments, body); !good) return std::move(good).error();
     if (options.order.empty()) return play_and_simulate(context, body, garments, options, progress);
     const auto ordered = order_layers(context, *body.skin.distance, options.order, garments,
                                       kLayersOfGap * options.solver.layer_gap_m);

@@ -62,10 +62,10 @@ class Drape {
   Scene& scene_;
   Recorder& recorder_;
   DrapeResult& result_;
-  std::optional<MotionPlayer> player_;        // of a body that moves
+  std::optional<MotionPlayer> player_;        // absent where the body stands still
   std::vector<rig::Affine> joints_;           // #J
   std::vector<geometry::Vec3> positions_;     // #vertices of all garments
-  GarmentReach reach_;                        // of positions_
+  GarmentReach reach_;                        // boxes around positions_
   std::vector<geometry::Vec3> held_, posed_;  // pins in the bind pose and in this one
   rig::SkinWeights held_weights_;
 };

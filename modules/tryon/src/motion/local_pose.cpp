@@ -1,22 +1,9 @@
 #include "motion/local_pose.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <bodice/rig/lead.hpp>
 
 namespace bodice::inline v0_1::tryon {
 namespace {
-
-// A body that stood still when its clip begins would throw tight cloth off in the first frame. So a ramp
-// leads to what the clip would have been before: its next moments mirrored in time, which have the same
-// velocity where they meet the clip. They slow down to end this far away, because all of a fast clip,
-// mirrored, would bend joints too far.
-constexpr double kLead_s = 0.1;
-
-// A weight that rises from 0 to 1 without a jerk at either end.
-double smooth_step(double share) {
-  const double t = std::clamp(share, 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 // The transform that is `share` of what leads from a to b.
 rig::LocalTransform between(const rig::LocalTransform& a, const rig::LocalTransform& b, double share) {
@@ -27,8 +14,8 @@ rig::LocalTransform between(const rig::LocalTransform& a, const rig::LocalTransf
 
 // What lies as far before `now` as `next` after it. A scale stays, because it may not pass through zero.
 rig::LocalTransform mirrored(const rig::LocalTransform& now, const rig::LocalTransform& next) {
-  return {.translation = 2.0 * now.translation - next.translation,
-          .rotation = now.rotation * next.rotation.conjugate() * now.rotation,
+  return {.translation = rig::mirrored(now.translation, next.translation),
+          .rotation = rig::mirrored(now.rotation, next.rotation),
           .scale = now.scale};
 }
 
@@ -58,10 +45,12 @@ void sample_with_ramp(const BodyMotion& motion, double time_s, rig::Playback pla
   const rig::Skeleton& skeleton = motion.rig.skeleton;
   rig::sample(skeleton, motion.clip, time_s, local, playback);
   if (!(ramp.left_s > 0.0)) return;
-  // A clip that starts over may jump there, and no ramp leads to what is beyond a jump.
-  const double lead_s = kLead_s * std::tanh(ramp.left_s / kLead_s);
+  // A body that stood still when its clip begins would throw tight cloth off in the first frame. So the ramp
+  // leads to what the clip would have been before: its next moments mirrored in time, which have the same
+  // velocity where they meet the clip. A clip that starts over may jump there, and none leads beyond a jump.
+  const double lead_s = rig::lead_s(ramp.left_s);
   rig::sample(skeleton, motion.clip, rig::time_in_clip(motion.clip, time_s, playback) + lead_s, ahead);
-  const double share = smooth_step(1.0 - ramp.left_s / ramp.length_s);
+  const double share = rig::smooth_step(1.0 - ramp.left_s / ramp.length_s);
   for (std::size_t j = 0; j < local.size(); ++j)
     local[j] = between(ramp.from[j], mirrored(local[j], ahead[j]), share);
 }
