@@ -105,19 +105,22 @@ void for_each_block(const engine::Context& context, const ContactMesh& mesh,
 
 }  // namespace
 
+LeafMove move_of(const ContactMesh& mesh, std::size_t leaf, std::span<const Point> before,
+                 std::span<const Point> now) {
+  const Float4 far = splat(kNoPath_m);
+  LeafMove m = {far, -far, far, -far};
+  for (const Index i : mesh.particles_of(leaf)) {
+    const Float4 at = load(before[i]), move = load(now[i]) - at;
+    m.at_low = min(m.at_low, at), m.at_high = max(m.at_high, at);
+    m.low = min(m.low, move), m.high = max(m.high, move);
+  }
+  return {xyz(m.at_low), xyz(m.at_high), xyz(m.low), xyz(m.high)};
+}
+
 void find_moves(const engine::Context& context, const ContactMesh& mesh, std::span<const Point> before,
                 std::span<const Point> now, std::vector<LeafMove>& moves) {
   engine::parallel_for(context, mesh.leaves(), kMovesATask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t leaf = begin; leaf < end; ++leaf) {
-      const Float4 far = splat(kNoPath_m);
-      LeafMove m = {far, -far, far, -far};
-      for (const Index i : mesh.particles_of(leaf)) {
-        const Float4 at = load(before[i]), move = load(now[i]) - at;
-        m.at_low = min(m.at_low, at), m.at_high = max(m.at_high, at);
-        m.low = min(m.low, move), m.high = max(m.high, move);
-      }
-      moves[leaf] = {xyz(m.at_low), xyz(m.at_high), xyz(m.low), xyz(m.high)};
-    }
+    for (std::size_t leaf = begin; leaf < end; ++leaf) moves[leaf] = move_of(mesh, leaf, before, now);
   });
 }
 

@@ -40,7 +40,11 @@ struct ContactSource {
   }
 };
 
-/// Finds the displacements from `before` to `now`, by leaf.
+/// The displacements of a leaf from `before` to `now`.
+LeafMove move_of(const ContactMesh& mesh, std::size_t leaf, std::span<const Point> before,
+                 std::span<const Point> now);
+
+/// Finds those of all leaves.
 void find_moves(const engine::Context& context, const ContactMesh& mesh, std::span<const Point> before,
                 std::span<const Point> now, std::vector<LeafMove>& moves);
 

@@ -17,21 +17,40 @@ constexpr float kSmoothing = 0.25f;
 // rest halves with every few substeps, and floats that have become subnormal take a hundred times as long.
 constexpr float kNoDrift2 = 1e-20f;
 
+// What was expected at the last search of particles after some time since.
+struct Expectation {
+  const SelfContact& self;
+  float share, most2;
+
+  Expectation(float since_s, float most_m, const SelfContact& s)
+      : self(s), share(std::min(1.0f, since_s / s.ahead_s)), most2(most_m * most_m) {}
+
+  bool holds(std::span<const Point> at, std::size_t i) const {
+    const Float4 off = xyz(load(at[i]) - load(self.found[i]) - share * load(self.ahead[i]));
+    return dot(off, off) <= most2;
+  }
+};
+
 }  // namespace
 
 bool strays(const engine::Context& context, std::span<const Point> at, float since_s, float most_m,
             const SelfContact& s) {
-  const float share = std::min(1.0f, since_s / s.ahead_s), most2 = most_m * most_m;
+  const Expectation expected(since_s, most_m, s);
   std::atomic<bool> far{false};
   engine::parallel_for(context, s.found.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     bool any_far = false;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Float4 off = xyz(load(at[i]) - load(s.found[i]) - share * load(s.ahead[i]));
-      any_far = any_far || !(dot(off, off) <= most2);
-    }
+    for (std::size_t i = begin; i < end; ++i) any_far = any_far || !expected.holds(at, i);
     if (any_far) far.store(true, std::memory_order_relaxed);
   });
   return far.load();
+}
+
+bool any_strays(std::span<const std::uint32_t> leaves, std::span<const Point> at, float since_s, float most_m,
+                const SelfContact& s) {
+  const Expectation expected(since_s, most_m, s);
+  return std::ranges::any_of(leaves, [&](std::uint32_t leaf) {
+    return std::ranges::any_of(s.mesh.particles_of(leaf), [&](Index i) { return !expected.holds(at, i); });
+  });
 }
 
 void look_ahead(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,

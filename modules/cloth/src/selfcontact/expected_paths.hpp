@@ -9,6 +9,10 @@ namespace bodice::inline v0_1::cloth {
 bool strays(const engine::Context& context, std::span<const Point> at, float since_s, float most_m,
             const SelfContact& self);
 
+/// The same of the particles of some leaves alone, on the calling thread.
+bool any_strays(std::span<const std::uint32_t> leaves, std::span<const Point> at, float since_s, float most_m,
+                const SelfContact& self);
+
 /// Expects that particles go on as they did, for a frame; and those that are at `at`, farther from there than
 /// `most_m`, that they stray no more than that.
 void look_ahead(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,

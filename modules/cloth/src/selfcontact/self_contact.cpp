@@ -64,6 +64,7 @@ void search(const engine::Context& context, SelfContact& s) {
   }
   s.searched = s.sided = true;
   find_groups(context, s.mesh, s.tree, s.gap_m + s.spare_m, s.gap_m, s.tasks);
+  s.moved_leaves.indexed = false;
   ++s.report.searches;
 }
 
@@ -90,25 +91,28 @@ PairPush push_of(const SelfSubstep& substep, const SelfContact& s) {
   return {substep.friction, kRecovery_m_s * substep.length_s, s.before, substep.touching, {}, {}};
 }
 
-// The number of pairs that would cross before the particles are at `now`. `again` in the same substep, only
-// parts that moved since are looked at.
-std::size_t count_crossing(const engine::Context& context, const SelfSubstep& substep, Room room, bool again,
+// The number of pairs that would cross before the particles are at `now`.
+std::size_t count_crossing(const engine::Context& context, const SelfSubstep& substep, Room room,
                            SelfContact& s) {
-  const std::size_t searches = s.report.searches;
   keep_groups(context, substep, s.now, kUsedAfter, s);
   find_moves(context, s.mesh, s.before, s.now, s.moves);
-  const bool all = !again || s.report.searches != searches;
-  const std::span<const std::uint8_t> moved = all ? std::span<const std::uint8_t>{} : s.moved_leaves;
-  const std::size_t count =
-      find_crossing(context, source_of(s), {s.now, s.zones.guard, s.zones.parent, moved, room}, s.tasks);
-  std::ranges::fill(s.moved_leaves, std::uint8_t{0});
-  return count;
+  forget_moved(s.moved_leaves);
+  return find_crossing(context, source_of(s), {s.now, s.zones.guard, s.zones.parent, room}, s.tasks);
 }
 
-// Notes that particles were moved.
-void note_moved(std::span<const Index> particles, SelfContact& s) {
-  for (const Index i : particles)
-    for (const std::uint32_t face : s.mesh.star_of(i)) s.moved_leaves[s.mesh.leaf_of[face]] = 1;
+// The same where none crossed but those of leaves that moved since.
+std::size_t count_crossing_again(const engine::Context& context, const SelfSubstep& substep, Room room,
+                                 SelfContact& s) {
+  const float since_s = s.since_s + substep.length_s;
+  if (any_strays(s.moved_leaves.leaves, s.now, since_s, kUsedAfter * s.spare_m, s))
+    return count_crossing(context, substep, room, s);
+  for (const std::uint32_t leaf : s.moved_leaves.leaves)
+    s.moves[leaf] = move_of(s.mesh, leaf, s.before, s.now);
+  const std::size_t count =
+      find_crossing_among(source_of(s), {s.now, s.zones.guard, s.zones.parent, room},
+                          groups_of_moved(s.tasks, s.moved_leaves), s.tasks);
+  forget_moved(s.moved_leaves);
+  return count;
 }
 
 // Pushes the pairs that would cross apart until none would; returns whether that succeeded.
@@ -116,10 +120,10 @@ bool part_pairs(const engine::Context& context, const SelfSubstep& substep, Self
   const PairPush how = {0.0f, 0.0f, s.before, substep.touching, s.zones.resolved, s.zones.guard};
   for (int round = 0; round < kHeldRounds; ++round) {
     for (const PairTask& task : s.tasks)
-      for (const PairContact& c : task.held) note_moved(c.particle, s);
+      for (const PairContact& c : task.held) note_moved(s.mesh, c.particle, s.moved_leaves);
     for (int sweep = 0; sweep < kHeldSweeps; ++sweep)
       if (!push_held(how, s.tasks, s.now)) break;
-    if (count_crossing(context, substep, Room::kAmple, true, s) == 0) return true;
+    if (count_crossing_again(context, substep, Room::kAmple, s) == 0) return true;
   }
   return false;
 }
@@ -131,9 +135,9 @@ void zone(const engine::Context& context, const SelfSubstep& substep, const Part
       join_zones(s.tasks, p, s.before, s.now, s.zones);
     else
       join_all(p, s.before, s.now, s.zones);
-    note_moved(s.zones.members, s);
+    note_moved(s.mesh, s.zones.members, s.moved_leaves);
     const Room room = round + 1 < kFirmRounds ? Room::kAmple : Room::kScarce;
-    if (count_crossing(context, substep, room, true, s) == 0) break;
+    if (count_crossing_again(context, substep, room, s) == 0) break;
   }
   s.report.held += s.zones.members.size();
   clear_zones(s.zones);
@@ -166,12 +170,12 @@ bool part_all(const engine::Context& context, const SelfSubstep& substep, const 
     if (!guard_moved(context, body, s)) return !any_pressed(s);
     for (const Index i : s.moved)
       store(s.now[i], guarded(load(s.now[i]), s.zones.resolved[i], s.zones.guard[i]));
-    note_moved(s.moved, s);
-    crossing = count_crossing(context, substep, Room::kAmple, true, s) > 0;
+    note_moved(s.mesh, s.moved, s.moved_leaves);
+    crossing = count_crossing_again(context, substep, Room::kAmple, s) > 0;
   }
   for (const Index i : s.moved)
     if (is_guarded(s.zones.guard[i])) s.now[i] = s.zones.resolved[i];
-  count_crossing(context, substep, Room::kScarce, false, s);
+  count_crossing(context, substep, Room::kScarce, s);
   for (PairTask& task : s.tasks)
     for (const std::uint32_t k : task.crossing) task.pressed.push_back(task.pairs[k]);
   return !any_pressed(s);
@@ -185,7 +189,7 @@ void part(const engine::Context& context, const SelfSubstep& substep, ResolvedBo
   body.least_m = body.thickness_m;
   if (part_all(context, substep, body, p, s) || s.failed_yields >= kFailedYields) return;
   std::ranges::copy(s.zones.resolved, s.now.begin());
-  count_crossing(context, substep, Room::kAmple, false, s);
+  count_crossing(context, substep, Room::kAmple, s);
   body.least_m = kYieldedShare * body.thickness_m;
   if (!part_all(context, substep, body, p, s)) ++s.failed_yields;
 }
@@ -214,7 +218,8 @@ SelfContact make_self_contact(const geometry::TriMesh& mesh, const Particles& p,
   s.tasks = make_pair_tasks(s.mesh);
   s.zones = make_zones(p.count());
   s.loose = make_loose(p.count());
-  s.moves.resize(s.mesh.leaves()), s.moved_leaves.resize(s.mesh.leaves());
+  s.moves.resize(s.mesh.leaves());
+  s.moved_leaves = make_moved_leaves(s.mesh);
   s.moved.reserve(p.count());
   for (auto* points : {&s.rest, &s.before, &s.now, &s.found, &s.ahead, &s.drift}) points->resize(p.count());
   for (std::size_t i = 0; i < p.count(); ++i) s.rest[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
@@ -224,6 +229,7 @@ SelfContact make_self_contact(const geometry::TriMesh& mesh, const Particles& p,
 void forget_pairs(SelfContact& s) {
   s.searched = false;
   for (PairTask& task : s.tasks) task.groups.clear(), task.pairs.clear();
+  s.moved_leaves.indexed = false;
 }
 
 void begin_self_contact(const engine::Context& context, const Particles& p, SelfContact& s) {
@@ -259,7 +265,7 @@ void push_apart(const engine::Context& context, const SelfSubstep& substep, Self
 void hold_apart(const engine::Context& context, const SelfSubstep& substep, const ResolvedBody& body,
                 SelfContact& s, Particles& p) {
   copy_points(context, p, s.now);
-  if (count_crossing(context, substep, Room::kAmple, false, s) > 0) {
+  if (count_crossing(context, substep, Room::kAmple, s) > 0) {
     part(context, substep, body, p, s);
     take_points(substep.length_s, s.now, p);
   }

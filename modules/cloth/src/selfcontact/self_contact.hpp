@@ -19,6 +19,7 @@
 #include "contact/sunk_particles.hpp"
 #include "selfcontact/contacts.hpp"
 #include "selfcontact/loose.hpp"
+#include "selfcontact/moved_leaves.hpp"
 #include "selfcontact/zones.hpp"
 
 namespace bodice::inline v0_1::cloth {
@@ -35,7 +36,7 @@ struct SelfContact {
   Loose loose;                             ///< corners of these, which contact leaves alone
   std::vector<Point> rest;                 ///< #P: positions at rest, meters, in the particles' first frame
   std::vector<Point> before, now;          ///< #P: positions when the substep began, and at its end
-  std::vector<std::uint8_t> moved_leaves;  ///< #leaves: those with particles that were, since the last search
+  MovedLeaves moved_leaves;                ///< those with particles that moved since crossings were counted
   std::vector<Index> moved;                ///< particles that were moved after contact with the body
   std::vector<Point> found, ahead;  ///< #P: positions at the last search, and displacements expected then
   std::vector<Point> drift;         ///< #P: smoothed velocities, meters a second

@@ -23,6 +23,8 @@ constexpr float kHeldOfGap = 0.1f;
 // Sweeps over the guarded particles of zones.
 constexpr int kLifts = 3;
 
+constexpr std::uint32_t kNoTask = ~std::uint32_t{0};
+
 // A zone with a pin moves as the pin, up to the rounding of floats.
 constexpr float kPinOfZone = 1e7f;
 
@@ -98,6 +100,11 @@ void find_crossing_in(const ContactSource& source, const CrossingSearch& how, Pa
   }
 }
 
+std::size_t count_all_crossing(const std::vector<PairTask>& tasks) {
+  return std::transform_reduce(tasks.begin(), tasks.end(), std::size_t{0}, std::plus<>(),
+                               [](const PairTask& task) { return task.crossing.size(); });
+}
+
 Index root_of(Index i, std::vector<Index>& parent) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
   return i;
@@ -159,15 +166,24 @@ std::size_t find_crossing(const engine::Context& context, const ContactSource& s
                           const CrossingSearch& how, std::vector<PairTask>& tasks) {
   engine::parallel_for(context, tasks.size(), 1, [&](std::size_t t, std::size_t) {
     PairTask& task = tasks[t];
-    task.crossing.clear(), task.held.clear();
-    if (how.moved.empty()) task.pressed.clear();
-    tidy(task), tidy_contacts(task);  // in a pinch, rounds find the same groups many times
-    for (PairGroup& group : task.groups)
-      if (how.moved.empty() || how.moved[group.leaf[0]] || how.moved[group.leaf[1]])
-        find_crossing_in(source, how, group, task);
+    task.crossing.clear(), task.held.clear(), task.pressed.clear();
+    tidy(task), tidy_contacts(task);
+    for (PairGroup& group : task.groups) find_crossing_in(source, how, group, task);
   });
-  return std::transform_reduce(tasks.begin(), tasks.end(), std::size_t{0}, std::plus<>(),
-                               [](const PairTask& task) { return task.crossing.size(); });
+  return count_all_crossing(tasks);
+}
+
+std::size_t find_crossing_among(const ContactSource& source, const CrossingSearch& how,
+                                std::span<const GroupOfTask> groups, std::vector<PairTask>& tasks) {
+  for (PairTask& task : tasks) task.crossing.clear(), task.held.clear();
+  std::uint32_t tidied = kNoTask;
+  for (const auto& [t, g] : groups) {
+    PairTask& task = tasks[t];
+    if (t != tidied) tidy(task), tidy_contacts(task);  // in a pinch, rounds find the same groups many times
+    tidied = t;
+    find_crossing_in(source, how, task.groups[g], task);
+  }
+  return count_all_crossing(tasks);
 }
 
 void join_zones(const std::vector<PairTask>& tasks, const Particles& p, std::span<const Point> before,

@@ -11,6 +11,7 @@
 #include "base/particles.hpp"
 #include "contact/sunk_particles.hpp"
 #include "selfcontact/contacts.hpp"
+#include "selfcontact/moved_leaves.hpp"
 
 namespace bodice::inline v0_1::cloth {
 
@@ -32,20 +33,23 @@ Zones make_zones(std::size_t particles);
 /// with it.
 enum class Room : std::uint8_t { kAmple, kScarce };
 
-/// The particles and leaves among which pairs that would cross are searched for.
+/// The particles among which pairs that would cross are searched for.
 struct CrossingSearch {
   std::span<const Point> now;    ///< #P: where paths end; a particle without weight cannot be moved
   std::span<const Guard> guard;  ///< #P: as Zones::guard
   std::span<const Index> zone;   ///< #P: as Zones::parent
-  std::span<const std::uint8_t>
-      moved;  ///< #leaves: whether its particles moved since the last search; or empty
   Room room = Room::kAmple;
 };
 
 /// Lists the pairs that would cross on their paths, by task, and apart from them those that may; returns the
-/// number of the former. Only leaves that moved are looked at, where that is given.
+/// number of the former.
 std::size_t find_crossing(const engine::Context& context, const ContactSource& source,
                           const CrossingSearch& how, std::vector<PairTask>& tasks);
+
+/// Lists those of some groups (groups_of_moved()) and adds the pairs that may cross to those of before;
+/// returns the number of the former. For few groups, on the calling thread.
+std::size_t find_crossing_among(const ContactSource& source, const CrossingSearch& how,
+                                std::span<const GroupOfTask> groups, std::vector<PairTask>& tasks);
 
 /// Joins the particles of the pairs that would cross, and moves all zones: writes their members' positions to
 /// `now`. Pins stay where they are; a zone with some moves as these do.
