@@ -213,7 +213,8 @@ TEST_CASE("a relief blend is summed in the same order, whichever candidate was f
   }
 }
 
-TEST_CASE("one workspace serves several colliders and clouds in turns without changing a bit") {
+TEST_CASE("one workspace serves several colliders and clouds in turns without changing a bit" *
+          doctest::test_suite("long")) {
   const Collider first(crowd(false, 60)), second(crowd(true, 60)), third(crowd(false, 200));
   Cloud large = lattice(14), small = lattice(9);
   Workspace workspace;

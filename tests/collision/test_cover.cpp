@@ -104,7 +104,8 @@ TEST_CASE("a cover reaches the skin where it is outside, and changes nothing els
   CHECK(nearer > 0);
 }
 
-TEST_CASE("a cover leaves every bit where the skin is inside, or is no skin of this surface") {
+TEST_CASE("a cover leaves every bit where the skin is inside, or is no skin of this surface" *
+          doctest::test_suite("long")) {
   const auto proxy = scene();
   Collider collider(proxy);
   const Skin skin = swollen_skin(collider);
@@ -135,7 +136,8 @@ TEST_CASE("a cover leaves every bit where the skin is inside, or is no skin of t
   CHECK(plain.cover({}, skin.points, {}).uncovered == 0);
 }
 
-TEST_CASE("ellipsoids without a table, or with one of two nodes a side, keep what they have under a cover") {
+TEST_CASE("ellipsoids without a table, or with one of two nodes a side, keep what they have under a cover" *
+          doctest::test_suite("long")) {
   auto data = with_relief(data_of(random_ellipsoids(9, 40, 0.4, 0.05, 0.2)), 2, 0.003, 12);
   for (std::size_t k = 0; k < data.relief.size(); k += 3) data.relief[k] = {};
   Collider collider(proxy_of(data));
@@ -171,7 +173,8 @@ TEST_CASE("a table that rises stays continuous where the octahedral map is folde
     }
 }
 
-TEST_CASE("after a cover, queries with a limit have the bits of those without") {
+TEST_CASE("after a cover, queries with a limit have the bits of those without" *
+          doctest::test_suite("long")) {
   Collider collider(scene());
   const Skin skin = swollen_skin(collider);
   REQUIRE(collider.cover({}, skin.points, {.tolerance_m = kTolerance_m}).uncovered > 50);

@@ -33,7 +33,8 @@ FitOptions options_for(Tier tier, int count) {
 
 }  // namespace
 
-TEST_CASE("fit: every tier recovers three separate ellipsoids from their skin") {
+TEST_CASE("fit: every tier recovers three separate ellipsoids from their skin" *
+          doctest::test_suite("long")) {
   const Skin skin = three_ellipsoids();
   for (const Tier tier : {Tier::kPaper, Tier::kSolid, Tier::kTight, Tier::kRelief}) {
     const auto result = fitting::fit({}, skin.view(), options_for(tier, 3));
