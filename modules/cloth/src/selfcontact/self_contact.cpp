@@ -26,7 +26,7 @@ constexpr double kSlackOfEdge = 0.2, kSpareOfEdge = 1.0;
 // The speed at which layers that begin too close move apart: a fold's width in a few frames.
 constexpr float kRecovery_m_s = 0.1f;
 // The speed at which triangles that cross are drawn apart.
-constexpr float kUntangle_m_s = 0.3f;
+constexpr float kUntangle_m_s = 1.0f;
 
 // Shares of the spare distance that particles may use before and after contacts moved them; two of them may
 // use both halves against each other.
