@@ -7,6 +7,7 @@
 #include <string>
 
 #include <bodice/binding/poser.hpp>
+#include <bodice/tryon/base_pose.hpp>
 #include <bodice/tryon/drape.hpp>
 #include <bodice/tryon/rigged_body.hpp>
 #include <bodice/tryon/wearing.hpp>
@@ -159,6 +160,33 @@ TEST_CASE("cloth keeps off a body that squats what of the skin stands out, after
   CHECK(draped->report.thickness_m < 1.5e-3);
   CHECK(beyond_carried > 0.05 * points);
   CHECK(beyond_covering < 0.015 * points);
+}
+
+TEST_CASE("a clip that is prepared has a nearer proxy in its frames, in the part of it that is played") {
+  Walker w = walker({}, "squat", proxy::Tier::kRelief);
+  w.worn = {{.name = "sheet", .mesh = bodice_test::sheet(0.1, 0.1, 2, 2), .held = {}}};
+  for (Vec3& p : w.worn[0].mesh.positions) p.y() += 3.0;  // high enough to meet nothing
+  tryon::DrapeOptions options{.frames = 2, .dt_s = 0.5, .kept_frames = 3, .motion = &w.motion};
+  options.solver.substeps = 1;
+  std::vector<std::string> stages;
+  const auto prepared =
+      tryon::drape({}, w.body, w.worn, options, [&](std::string_view stage, double fraction) {
+        CHECK(fraction <= 1.0);
+        if (stages.empty() || stages.back() != stage) stages.emplace_back(stage);
+      });
+  options.prepare_clip = false;
+  const auto carried = tryon::drape({}, w.body, w.worn, options);
+  REQUIRE_MESSAGE(prepared.ok(), prepared.error().sentence());
+  REQUIRE_MESSAGE(carried.ok(), carried.error().sentence());
+  CHECK(stages == std::vector<std::string>{"prepare", "drape"});
+  CHECK(carried->report.base_poses == 0);
+  CHECK(prepared->report.base_poses > 2);
+  const auto whole = tryon::make_base_poses({}, w.body.fit.proxy, w.body.skin, w.motion);
+  REQUIRE(whole.ok());
+  CHECK(whole->size() > prepared->report.base_poses);
+  const tryon::KeptFrame &near = prepared->report.kept[2], &far = carried->report.kept[2];
+  CHECK(near.time_s == 1.0);
+  CHECK(near.proxy_error.error_m.mean < 0.85 * far.proxy_error.error_m.mean);
 }
 
 TEST_CASE("a drape on a moving body has the same bits for 1, 3 and 7 workers") {

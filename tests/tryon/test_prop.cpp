@@ -1,7 +1,9 @@
 // Things beside a body in a drape: a figure that sits on a chair, and one that sits down on it.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <nlohmann/json.hpp>
 
@@ -10,6 +12,7 @@
 #include <bodice/proxy/posed_proxy.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
 #include <bodice/synth/thing.hpp>
+#include <bodice/tryon/base_pose.hpp>
 #include <bodice/tryon/drape.hpp>
 #include <bodice/tryon/report.hpp>
 #include <bodice/tryon/rigged_body.hpp>
@@ -136,4 +139,44 @@ TEST_CASE("a prop stays where it is while the joints of the body move") {
         proxy::posed_proxy_distance(*all, poser->posed(), q).distance ==
         doctest::Approx(proxy::posed_proxy_distance(body.fit.proxy, own->posed(), q).distance).epsilon(1e-9));
   }
+}
+
+TEST_CASE("beside a prop a body takes its base poses, and the prop keeps its tables") {
+  const engine::Context context;
+  const tryon::PreparedBody& body = bound_builtin_body(kVertices, proxy::Tier::kRelief);
+  const tryon::PreparedBody chair = made_prop(context, synth::make_chair({1.5, 0.45, 0.0}, 0.03), body);
+  const auto all = tryon::with_props(body.fit.proxy, {&chair, 1});
+  REQUIRE_MESSAGE(all.ok(), all.error().sentence());
+  std::vector<engine::Warning> warnings;
+  const auto motion = tryon::find_motion(context, body.skin, {.motion = "squat"}, warnings);
+  REQUIRE(motion.ok());
+  std::vector<rig::Affine> joints(motion->rig.skeleton.joints.size());
+  rig::joint_matrices(motion->rig.skeleton, motion->clip, 1.0, joints);
+  const auto base = tryon::make_base_pose(context, body.fit.proxy, body.skin, joints, "squat");
+  REQUIRE(base.ok());
+  const auto of_all = std::make_shared<const proxy::BasePose>(proxy::with_things(**base, *all));
+  REQUIRE(proxy::check_base(*all, *of_all).ok());
+
+  auto poser = binding::Poser::make(*all), own = binding::Poser::make(body.fit.proxy),
+       carried = binding::Poser::make(body.fit.proxy);
+  REQUIRE(poser->keep_base(of_all).ok());
+  REQUIRE(own->keep_base(*base).ok());
+  REQUIRE(own->pose(context, joints).ok());
+  REQUIRE(carried->pose(context, joints).ok());
+  joints.push_back(rig::identity());
+  REQUIRE(poser->pose(context, joints).ok());
+  double most_m = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 p(1.5 + 0.3 * std::sin(1.1 * i), 0.5 + 0.5 * std::sin(1.7 * i), 0.3 * std::sin(2.3 * i));
+    CHECK(proxy::posed_proxy_distance(*all, poser->posed(), p).distance ==
+          doctest::Approx(proxy::proxy_distance(chair.fit.proxy, p).distance).epsilon(1e-9));
+    const Vec3 q(0.3 * std::sin(1.1 * i), 0.5 + 0.5 * std::sin(1.7 * i), 0.3 * std::sin(2.3 * i));
+    const double with_base_m = proxy::posed_proxy_distance(body.fit.proxy, own->posed(), q).distance;
+    CHECK(proxy::posed_proxy_distance(*all, poser->posed(), q).distance ==
+          doctest::Approx(with_base_m).epsilon(1e-9));
+    most_m = std::max(most_m, std::abs(with_base_m - proxy::posed_proxy_distance(
+                                                         body.fit.proxy, carried->posed(), q)
+                                                         .distance));
+  }
+  CHECK(most_m > 1e-3);  // the base pose makes a difference
 }

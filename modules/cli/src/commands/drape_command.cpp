@@ -62,6 +62,11 @@ void add_motion_options(CLI::App& sub, DrapeCommand& c) {
       ->check(between(0.0, 60.0))
       ->needs(motion)
       ->group(group);
+  sub.add_flag("--no-prepare", c.no_prepare,
+               "do not fit the proxy to poses along the clip beforehand: it begins seconds earlier, and more "
+               "skin shows")
+      ->needs(motion)
+      ->group(group);
   sub.add_option("--frames", c.frames, "frames to simulate (default: 120, or the clip once)")
       ->check(whole(1, kMostFrames))
       ->group(group);

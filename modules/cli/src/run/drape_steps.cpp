@@ -179,6 +179,7 @@ double tack_m(const std::string& text) {
 engine::Result<tryon::DrapeOptions> drape_options(const DrapeCommand& command, const geometry::Frame& frame,
                                                   const tryon::BodyMotion* motion) {
   tryon::DrapeOptions options = command.drape;
+  options.prepare_clip = !command.no_prepare;
   options.motion = motion;
   if (command.frames) {
     options.frames = *command.frames;

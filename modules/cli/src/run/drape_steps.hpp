@@ -23,7 +23,7 @@ struct DrapeCommand {
   std::vector<double> wind_m_s;
   std::optional<double> thickness_mm;
   std::optional<int> frames;
-  bool no_picture = false;
+  bool no_picture = false, no_prepare = false;
   std::string contact_sheet, film_strip, fit_map, cache;
   std::string thumbnail;  ///< a small picture of the end, for lists of results; no option gives it
   int sheet_columns = 8;

@@ -81,4 +81,14 @@ engine::Result<BodyProxy> add_things(const BodyProxy& body, std::span<const Body
   return BodyProxy::make(std::move(data));
 }
 
+BasePose with_things(const BasePose& of_body, const BodyProxy& all) {
+  BasePose base = of_body;
+  const auto tables = all.relief().subspan(of_body.relief.size());
+  const auto texels = all.texels().subspan(of_body.texels.size());
+  base.joints.push_back(all.binding()->bind.back());
+  base.relief.insert(base.relief.end(), tables.begin(), tables.end());
+  base.texels.insert(base.texels.end(), texels.begin(), texels.end());
+  return base;
+}
+
 }  // namespace bodice::proxy

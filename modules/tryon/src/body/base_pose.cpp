@@ -1,5 +1,6 @@
 #include <bodice/tryon/base_pose.hpp>
 
+#include <algorithm>
 #include <utility>
 
 #include <bodice/binding/poser.hpp>
@@ -58,13 +59,17 @@ engine::Result<std::shared_ptr<const proxy::BasePose>> make_base_pose(const engi
 
 engine::Result<proxy::BasePoses> make_base_poses(const engine::Context& context,
                                                  const proxy::BodyProxy& bound, const SegmentedSkin& skin,
-                                                 const BodyMotion& motion) {
+                                                 const BodyMotion& motion, double until_s,
+                                                 const Progress& progress) {
   auto poser = binding::Poser::make(bound);
   if (!poser) return std::move(poser).error();
   std::vector<rig::Affine> world(motion.rig.skeleton.joints.size());
   proxy::BasePoses bases;
-  for (int step = 0; step * kStep_s <= motion.clip.duration_s && bases.size() < kMostPrepared; ++step) {
+  const double end_s = std::min(until_s, motion.clip.duration_s);
+  for (int step = 0; step * kStep_s <= end_s && bases.size() < kMostPrepared; ++step) {
+    context.cancel.check();
     const double time_s = step * kStep_s;
+    if (progress && end_s > 0.0) progress("prepare", time_s / end_s);
     rig::joint_matrices(motion.rig.skeleton, motion.clip, time_s, world);
     if (poser->departure_rad(world) < kPreparedTurn_rad) continue;
     auto base = make_base_pose(context, bound, skin, world, engine::message(motion.clip.name, " ", time_s));

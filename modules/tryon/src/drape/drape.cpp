@@ -10,6 +10,7 @@
 #include <bodice/engine/stage_timer.hpp>
 #include <bodice/geometry/crossings.hpp>
 #include <bodice/rig/loop.hpp>
+#include <bodice/tryon/base_pose.hpp>
 #include <bodice/tryon/layers.hpp>
 #include <bodice/tryon/penetration.hpp>
 
@@ -38,21 +39,33 @@ double ramp_s(const engine::Context& context, const DrapeOptions& options, const
 }
 
 /// Returns the given thickness, or the one that the body at rest and the poses of its clip need.
+/// The base poses along the part of the clip that is played.
+engine::Result<proxy::BasePoses> prepare_clip(const engine::Context& context, const DrapeOptions& options,
+                                              const PreparedBody& body, const Progress& progress,
+                                              std::vector<engine::StageTime>& stages) {
+  if (!options.motion || !options.prepare_clip || body.fit.proxy.relief().empty()) return proxy::BasePoses{};
+  const engine::StageTimer timer(context, stages, "prepare");
+  return make_base_poses(context, body.fit.proxy, body.skin, *options.motion, options.frames * options.dt_s,
+                         progress);
+}
+
 engine::Result<double> thickness_m(const engine::Context& context, const DrapeOptions& options,
-                                   const PreparedBody& body, const geometry::TriMesh& garments) {
+                                   const PreparedBody& body, const geometry::TriMesh& garments,
+                                   const proxy::BasePoses& bases) {
   if (options.thickness_m) return *options.thickness_m;
   const MovingBody standing = MovingBody::make(body.skin, body.fit.proxy, false).value();
   const double at_rest_m = known_thickness_m(context, garments, *body.skin.distance, standing.collider());
   if (!options.motion) return at_rest_m;
-  const auto moving_m = moving_thickness_m(context, garments, body, *options.motion);
+  const auto moving_m = moving_thickness_m(context, garments, body, *options.motion, bases);
   if (!moving_m) return moving_m.error();
   return std::max(at_rest_m, *moving_m);
 }
 
 engine::Result<cloth::SolverOptions> solver_options(const engine::Context& context,
                                                     const DrapeOptions& options, const PreparedBody& body,
-                                                    const geometry::TriMesh& garments) {
-  const auto thickness = thickness_m(context, options, body, garments);
+                                                    const geometry::TriMesh& garments,
+                                                    const proxy::BasePoses& bases) {
+  const auto thickness = thickness_m(context, options, body, garments, bases);
   if (!thickness) return thickness.error();
   cloth::SolverOptions solver = options.solver;
   solver.thickness_m = *thickness;
@@ -69,7 +82,10 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   const auto tacked = add_tacks(context, garments, options.tack_m, *all);
   const auto fabric = fabric_or_cotton(options.fabric);
   if (!fabric) return fabric.error();
-  const auto settings = solver_options(context, options, body, all->mesh);
+  std::vector<engine::StageTime> stages;
+  const auto bases = prepare_clip(context, options, body, progress, stages);
+  if (!bases) return bases.error();
+  const auto settings = solver_options(context, options, body, all->mesh, *bases);
   if (!settings) return settings.error();
   auto solver = cloth::Solver::make(all->mesh, all->held, *fabric, *settings, all->tacks);
   if (!solver) return std::move(solver).error();
@@ -77,6 +93,8 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   DrapeResult result;
   DrapeReport& report = result.report;
   report = describe(garments, options, *settings, *fabric);
+  report.stages = std::move(stages);
+  report.base_poses = bases->size();
   for (std::size_t g = 0; g < garments.size(); ++g) report.garments[g].tacked = tacked[g];
   report.particles = solver->particles();
   report.crossings_start = geometry::find_crossings(all->mesh.positions, all->mesh.triangles).size();
@@ -85,7 +103,7 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   if (auto met = meet_props(context, all->mesh.positions, body, options.props, result); !met)
     return std::move(met).error();
   const proxy::BodyProxy& met = result.proxy ? *result.proxy : body.fit.proxy;
-  auto scene = make_scene(*all, *solver, body, met, options.motion != nullptr);
+  auto scene = make_scene(*all, *solver, body, met, options.motion != nullptr, *bases);
   if (!scene) return std::move(scene).error();
   MovingBody& moving = scene->met;
   report.lifted_m = lift_out(context, body.skin, moving.collider(), settings->thickness_m, *all, *solver);

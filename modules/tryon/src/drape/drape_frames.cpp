@@ -19,11 +19,14 @@ constexpr double kJudgedWithin_m = 0.03, kVisibleDepth_m = 0.5e-3;
 }  // namespace
 
 engine::Result<Scene> make_scene(const Wardrobe& all, cloth::Solver& solver, const PreparedBody& body,
-                                 const proxy::BodyProxy& with_props, bool moves) {
+                                 const proxy::BodyProxy& with_props, bool moves,
+                                 const proxy::BasePoses& bases) {
   auto met = MovingBody::make(body.skin, with_props, moves);
   if (!met) return std::move(met).error();
   auto judged = MovingBody::make(body.skin, body.fit.proxy, moves);
   if (!judged) return std::move(judged).error();
+  for (MovingBody* of : {&*met, &*judged})
+    if (auto kept = of->keep_bases(bases); !kept) return std::move(kept).error();
   return Scene{all, solver, std::move(met).value(), std::move(judged).value()};
 }
 

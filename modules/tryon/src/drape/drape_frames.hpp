@@ -22,9 +22,10 @@ struct Scene {
   MovingBody met, judged;
 };
 
-/// Fails where the proxy cannot follow the rig of a body that moves.
+/// A body that moves takes the base poses. Fails where the proxy cannot follow its rig.
 engine::Result<Scene> make_scene(const Wardrobe& all, cloth::Solver& solver, const PreparedBody& body,
-                                 const proxy::BodyProxy& with_props, bool moves);
+                                 const proxy::BodyProxy& with_props, bool moves,
+                                 const proxy::BasePoses& bases);
 
 /// A drape in progress: cloth, body, and what is recorded of them.
 class Drape {

@@ -60,6 +60,17 @@ engine::Result<void> MovingBody::pose(const engine::Context& context, std::span<
   return {};
 }
 
+engine::Result<void> MovingBody::keep_bases(const proxy::BasePoses& bases) {
+  for (const auto& base : bases) {
+    const auto of_all =
+        with_still_.empty()
+            ? base
+            : std::make_shared<const proxy::BasePose>(proxy::with_things(*base, poser_->bound()));
+    if (auto kept = poser_->keep_base(of_all); !kept) return kept;
+  }
+  return {};
+}
+
 void MovingBody::cover(const engine::Context& context, std::optional<std::span<const geometry::Box>> within) {
   if (!collider_.has_relief()) return;
   if (blend_.share() > 0.0)

@@ -31,6 +31,9 @@ class MovingBody {
   engine::Result<void> pose(const engine::Context& context, std::span<const rig::Affine> joints, double dt_s,
                             const binding::PoseOptions& options = {});
 
+  /// Adds base poses of the body, which later poses are mixed from. Fails where one is not of this body.
+  engine::Result<void> keep_bases(const proxy::BasePoses& bases);
+
   /// Goes over to its shape from that of another body of the same vertices, in the calls that follow.
   void come_from(const MovingBody& before) { blend_.begin(before.blend_); }
   /// The share of the shape that it comes from: 1 at first, 0 where it has its own.

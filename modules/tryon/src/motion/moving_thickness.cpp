@@ -17,9 +17,11 @@ constexpr int kPoses = 12;  // of the clip: the pose at rest is judged besides
 }  // namespace
 
 engine::Result<double> moving_thickness_m(const engine::Context& context, const geometry::TriMesh& garment,
-                                          const PreparedBody& body, const BodyMotion& motion) {
+                                          const PreparedBody& body, const BodyMotion& motion,
+                                          const proxy::BasePoses& bases) {
   auto moving = MovingBody::make(body.skin, body.fit.proxy, true);
   if (!moving) return std::move(moving).error();
+  if (auto kept = moving->keep_bases(bases); !kept) return std::move(kept).error();
   const std::vector<Vec3> below = skin_below(context, garment, *body.skin.distance);
   const rig::SkinWeights weights =
       attach_to_skin(body.skin.input.skin, *body.skin.distance, motion.rig.weights, below);

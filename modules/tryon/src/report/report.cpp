@@ -248,6 +248,7 @@ std::string report_json(const PreparedBody& body, const DrapeReport* drape, cons
   if (drape && drape->fit_map) report["drape"]["fit_map"] = fit_map_json(*drape->fit_map);
   if (drape && !drape->kept.empty()) {
     report["drape"]["ramp_s"] = drape->ramp_s;
+    report["drape"]["base_poses"] = drape->base_poses;
     report["drape"]["kept"] = kept_json(drape->kept);
   }
   // Names of files and meshes need not be UTF-8; invalid bytes are replaced.

@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include <bodice/proxy/base_pose.hpp>
 #include <bodice/proxy/body_proxy.hpp>
 
 namespace bodice::inline v0_1::proxy {
@@ -18,5 +19,9 @@ inline constexpr std::string_view kStillJoint = "still";
 /// kInvalidArgument unless stature, margin and having tables are the body's: fit the things with the stature
 /// of the body. O(size of all).
 engine::Result<BodyProxy> add_things(const BodyProxy& body, std::span<const BodyProxy> things);
+
+/// A base pose of a body for the body with its things, `all`, of which the latter keep their tables. O(size of
+/// all).
+BasePose with_things(const BasePose& of_body, const BodyProxy& all);
 
 }  // namespace bodice::proxy

@@ -1,6 +1,7 @@
 // Base poses: the tables of a bound proxy solved anew where those carried from rest err too much.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -28,10 +29,12 @@ inline constexpr double kPreparedTurn_rad = 0.2;
 
 /// Prepares a clip that is known beforehand: base poses along it, in the order of their times, so that no
 /// pose of it is farther than kPreparedTurn_rad from rest or one of them (at most 64 of them; then poses late
-/// in the clip are farther). Named by the clip and the second. Fails as make_base_pose() does. Takes as long
-/// as that for each.
+/// in the clip are farther). Named by the clip and the second. What follows `until_s` is left out. Fails as
+/// make_base_pose() does. Takes as long as that for each; `progress` gets "prepare".
 engine::Result<proxy::BasePoses> make_base_poses(const engine::Context& context,
                                                  const proxy::BodyProxy& bound, const SegmentedSkin& skin,
-                                                 const BodyMotion& motion);
+                                                 const BodyMotion& motion,
+                                                 double until_s = std::numeric_limits<double>::infinity(),
+                                                 const Progress& progress = {});
 
 }  // namespace bodice::tryon

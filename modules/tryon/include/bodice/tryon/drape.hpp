@@ -34,6 +34,9 @@ struct DrapeOptions {
   /// dt_s of the clip.
   const BodyMotion* motion = nullptr;
   std::optional<double> ramp_s;  ///< zero or more; absent: suggested_ramp_s()
+  /// Whether the proxy's tables are solved anew along the clip before its first frame (make_base_poses()),
+  /// in some tenths of a second for each such pose. Else they are carried from rest, and err by a fifth more.
+  bool prepare_clip = true;
   /// After its end the clip starts over; where its end does not meet its start, a seam leads back, and its
   /// seconds count (closed_loop()). Else the last frame holds.
   bool loop = false;
@@ -85,6 +88,7 @@ struct DrapeReport {
   std::uint64_t hash = 0;                       ///< hash of the final state, equal for any number of workers
   double lifted_m = 0.0;  ///< how far the start was moved out of a proxy that is wider than the skin, at most
   double ramp_s = 0.0;    ///< from the bind pose to the clip's first frame
+  std::size_t base_poses = 0;   ///< of the clip, for which tables were solved anew
   std::vector<KeptFrame> kept;  ///< the kept frames of a body that moves
   std::vector<DrapedGarment> garments;
   std::vector<PropReport> props;
