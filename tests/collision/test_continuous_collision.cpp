@@ -116,8 +116,7 @@ TEST_CASE("no shot of a second at 1,000 m/s passes through a union") {
   CHECK(inside == 0);
 }
 
-TEST_CASE("no shot passes through a union of 4,096 ellipsoids" *
-          doctest::test_suite("long")) {
+TEST_CASE("no shot passes through a union of 4,096 ellipsoids" * doctest::test_suite("long")) {
   const auto shapes = random_ellipsoids(4, 4096, 1.0, 0.02, 0.1);
   const Collider collider(proxy_of(shapes));
   Shots shots = shoot(shapes, collider.origin(), 300.0, 300);

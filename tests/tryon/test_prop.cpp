@@ -174,9 +174,9 @@ TEST_CASE("beside a prop a body takes its base poses, and the prop keeps its tab
     const double with_base_m = proxy::posed_proxy_distance(body.fit.proxy, own->posed(), q).distance;
     CHECK(proxy::posed_proxy_distance(*all, poser->posed(), q).distance ==
           doctest::Approx(with_base_m).epsilon(1e-9));
-    most_m = std::max(most_m, std::abs(with_base_m - proxy::posed_proxy_distance(
-                                                         body.fit.proxy, carried->posed(), q)
-                                                         .distance));
+    most_m = std::max(
+        most_m,
+        std::abs(with_base_m - proxy::posed_proxy_distance(body.fit.proxy, carried->posed(), q).distance));
   }
   CHECK(most_m > 1e-3);  // the base pose makes a difference
 }

@@ -108,9 +108,8 @@ std::size_t count_crossing_again(const engine::Context& context, const SelfSubst
     return count_crossing(context, substep, room, s);
   for (const std::uint32_t leaf : s.moved_leaves.leaves)
     s.moves[leaf] = move_of(s.mesh, leaf, s.before, s.now);
-  const std::size_t count =
-      find_crossing_among(source_of(s), {s.now, s.zones.guard, s.zones.parent, room},
-                          groups_of_moved(s.tasks, s.moved_leaves), s.tasks);
+  const std::size_t count = find_crossing_among(source_of(s), {s.now, s.zones.guard, s.zones.parent, room},
+                                                groups_of_moved(s.tasks, s.moved_leaves), s.tasks);
   forget_moved(s.moved_leaves);
   return count;
 }
