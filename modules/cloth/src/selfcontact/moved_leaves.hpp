@@ -1,5 +1,5 @@
-// The leaves with particles that moved since crossings were last counted, and the groups of these. Few particles
-// move in a round of corrections, and a pass over all groups would cost more than the corrections.
+// The leaves with particles that moved since crossings were last counted, and the groups of these. Few
+// particles move in a round of corrections, and a pass over all groups would cost more than the corrections.
 #pragma once
 
 #include <compare>
