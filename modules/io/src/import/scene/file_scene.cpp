@@ -1,7 +1,7 @@
 #include "import/scene/file_scene.hpp"
 
 #include <bit>
-#include <unordered_map>
+#include <utility>
 
 #include <bodice/engine/random.hpp>
 
@@ -10,6 +10,7 @@ namespace bodice::inline v0_1::io {
 namespace {
 
 using geometry::Index;
+using geometry::kNoIndex;
 using geometry::Vec3;
 using Key = std::array<std::uint64_t, 3>;
 
@@ -19,10 +20,46 @@ Key key_of(const Vec3& p) {
   return key;
 }
 
-struct KeyHash {
-  std::size_t operator()(const Key& key) const {
-    return engine::mix64(key[0] ^ engine::mix64(key[1] ^ engine::mix64(key[2])));
+std::size_t hash_of(const Key& key) {
+  return engine::mix64(key[0] ^ engine::mix64(key[1] ^ engine::mix64(key[2])));
+}
+
+/// Positions without repetitions of the same bits, found in a table that is at most half full.
+class SharedPositions {
+ public:
+  SharedPositions() : slot_(std::size_t{1} << 10, kNoIndex) {}
+
+  /// The number of a position, and whether it is new.
+  std::pair<Index, bool> add(const Vec3& p) {
+    const Key key = key_of(p);
+    std::size_t at = find(key);
+    if (slot_[at] != kNoIndex) return {slot_[at], false};
+    if (2 * positions_.size() >= slot_.size()) {
+      grow();
+      at = find(key);
+    }
+    slot_[at] = static_cast<Index>(positions_.size());
+    positions_.push_back(p);
+    return {slot_[at], true};
   }
+
+  std::vector<Vec3> take() { return std::move(positions_); }
+
+ private:
+  /// The slot that has the key, else the free one where it belongs.
+  std::size_t find(const Key& key) const {
+    std::size_t at = hash_of(key) & (slot_.size() - 1);
+    while (slot_[at] != kNoIndex && key_of(positions_[slot_[at]]) != key) at = (at + 1) & (slot_.size() - 1);
+    return at;
+  }
+
+  void grow() {
+    slot_.assign(4 * slot_.size(), kNoIndex);
+    for (Index i = 0; i < positions_.size(); ++i) slot_[find(key_of(positions_[i]))] = i;
+  }
+
+  std::vector<Vec3> positions_;
+  std::vector<Index> slot_;
 };
 
 }  // namespace
@@ -38,22 +75,23 @@ void append(const geometry::TriMesh& mesh, geometry::TriMesh& to) {
 void share_vertices(FileMesh& file_mesh) {
   const geometry::TriMesh& mesh = file_mesh.shape;
   geometry::TriMesh shared;
-  std::vector<Index> first;                       // first use of each shared vertex
-  std::unordered_map<Key, Index, KeyHash> found;  // used for lookup only, so that its order does not matter
-  found.reserve(mesh.positions.size() / 4);
+  SharedPositions positions;
+  std::vector<Index> first;                                // first use of each shared vertex
+  std::vector<Index> to(mesh.positions.size(), kNoIndex);  // the shared vertex of each
   shared.triangles.reserve(mesh.triangles.size());
   for (const geometry::Triangle& triangle : mesh.triangles) {
     geometry::Triangle& out = shared.triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3& p = mesh.positions[triangle[k]];
-      const auto [at, fresh] = found.try_emplace(key_of(p), static_cast<Index>(shared.positions.size()));
-      if (fresh) {
-        shared.positions.push_back(p);
-        first.push_back(triangle[k]);
+      const Index v = triangle[k];
+      if (to[v] == kNoIndex) {
+        const auto [number, fresh] = positions.add(mesh.positions[v]);
+        if (fresh) first.push_back(v);
+        to[v] = number;
       }
-      out[k] = at->second;
+      out[k] = to[v];
     }
   }
+  shared.positions = positions.take();
   file_mesh.weights = take_weights(file_mesh.weights, first);
   file_mesh.shape = std::move(shared);
 }

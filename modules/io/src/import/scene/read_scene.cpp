@@ -10,6 +10,7 @@
 #include "import/scene/file_scene.hpp"
 #include "import/scene/gltf_rig.hpp"
 #include "import/scene/look_reader.hpp"
+#include "import/scene/plain_mesh.hpp"
 #include "import/scene/scene_rig.hpp"
 #include "import/scene/triangulate.hpp"
 #include "import/source/assimp_reader.hpp"
@@ -180,6 +181,13 @@ engine::Result<std::optional<GltfDocument>> open_document(const std::filesystem:
   return document;
 }
 
+FileScene scene_of(FileMesh mesh, const std::filesystem::path& file) {
+  FileScene scene;
+  if (is_made_up(mesh.name)) mesh.name = file.stem().string();
+  scene.meshes.push_back(std::move(mesh));
+  return scene;
+}
+
 }  // namespace
 
 engine::Result<FileScene> read_motion_scene(const std::filesystem::path& file, LookOf look) {
@@ -216,6 +224,10 @@ engine::Result<FileScene> read_motion_scene(const std::filesystem::path& file, L
 }
 
 engine::Result<FileScene> read_scene(const std::filesystem::path& file, LookOf look) {
+  if (look == LookOf::kNothing) {
+    if (auto checked = check_readable(file); !checked) return checked.error();
+    if (auto plain = read_plain_mesh(file, format_of(file))) return scene_of(std::move(*plain), file);
+  }
   auto result = read_motion_scene(file, look);
   if (result && result->meshes.empty())
     return engine::Error{engine::ErrorCode::kUnreadable, "'" + file.string() + "' holds no triangles.",

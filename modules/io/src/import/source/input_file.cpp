@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cstdint>
 #include <fstream>
-#include <iterator>
 
 #include <bodice/engine/text.hpp>
 
@@ -135,8 +134,19 @@ engine::Result<void> check_readable(const std::filesystem::path& file) {
 }
 
 std::string read_text(const std::filesystem::path& file) {
+  std::string text;
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
   std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  if (error || !stream) return text;
+  text.resize(size);
+  stream.read(text.data(), static_cast<std::streamsize>(size));
+  text.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+  return text;
+}
+
+bool is_far_from_origin(const geometry::Box& box) {
+  return !box.empty() && box.center().norm() > kFarDiagonals * box.size().norm();
 }
 
 ColladaAsset parse_collada_asset(std::string_view document) {
@@ -160,7 +170,7 @@ std::optional<MovedObj> move_to_origin(std::string_view obj) {
   for_each_line(obj, [&](std::string_view line) {
     if (const auto vertex = take_vertex(line); vertex && vertex->allFinite()) box.extend(*vertex);
   });
-  if (box.empty() || !(box.center().norm() > kFarDiagonals * box.size().norm())) return std::nullopt;
+  if (!is_far_from_origin(box)) return std::nullopt;
 
   MovedObj moved{{}, box.center().array().round()};
   moved.text.reserve(obj.size());
