@@ -52,7 +52,7 @@ TEST_CASE("noise is measured within a twelfth, in any unit, and removed to less 
 }
 
 TEST_CASE("clean surfaces have no noise: fine, coarse, with edges, with holes, empty") {
-  CHECK(noise_of({}, {}) == 0.0);
+  CHECK(noise_of({}, TriMesh{}) == 0.0);
   for (const int level : {1, 2, 3, 5}) CHECK(noise_of({}, bodice_test::icosphere(kRadius_m, level)) == 0.0);
   TriMesh half = bodice_test::icosphere(kRadius_m, 4);
   std::erase_if(half.triangles, [&](const Triangle& t) { return half.positions[t[0]].x() > 0.0; });

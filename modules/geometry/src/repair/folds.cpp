@@ -63,7 +63,7 @@ double folded_share(const TriMesh& mesh) {
 
 std::vector<Vec3> without_folds(const engine::Context& context, const TriMesh& mesh) {
   const Neighbors neighbors(mesh);
-  const std::vector<Vec3> normals = smooth_normals(context, mesh, neighbors);
+  const std::vector<Vec3> normals = smooth_normals(context, neighbors, vertex_normals(mesh));
   const std::vector<char> fixed = find_fixed(mesh, normals);
   std::vector<Vec3> positions = mesh.positions, next = positions;
   const auto for_each_free = [&](auto&& move) {

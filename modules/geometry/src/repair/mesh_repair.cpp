@@ -24,6 +24,8 @@ constexpr double kLargestCoordinate = 1e75;
 // A triangle lower than this fraction of the diagonal has no area. Rounding alone gives collinear corners a
 // height of about 1e-16 of it.
 constexpr double kFlatRelative = 1e-12;
+// So many points ahead the bucket of one is fetched: buckets are all over the memory.
+constexpr std::size_t kFetched = 8;
 
 bool usable(const Vec3& p) {
   return p.allFinite() && p.cwiseAbs().maxCoeff() <= kLargestCoordinate;
@@ -75,18 +77,21 @@ class Repair {
   /// Fills representative_, numbered by first use, and welded_.
   void weld() {
     std::vector<Vec3> used;
+    std::vector<Index> vertex;  // of each
     std::vector<bool> seen(input_.positions.size(), false);
     for_each_corner([&](Index v) {
-      if (!seen[v]) used.push_back(input_.positions[v]);
+      if (seen[v]) return;
       seen[v] = true;
+      used.push_back(input_.positions[v]);
+      vertex.push_back(v);
     });
     diagonal_ = robust_diagonal(used);
     Welder welder(options_.weld_relative * diagonal_, used.size());
     representative_.assign(input_.positions.size(), kNoIndex);
-    for_each_corner([&](Index v) {
-      Index& to = representative_[v];
-      if (to == kNoIndex) to = welder.add(input_.positions[v]);
-    });
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      if (i + kFetched < used.size()) welder.fetch(used[i + kFetched]);
+      representative_[vertex[i]] = welder.add(used[i]);
+    }
     positions_ = welder.representatives();
     out_.report.welded = used.size() - positions_.size();
     welded_.resize(input_.triangles.size());

@@ -44,8 +44,8 @@ double median(std::vector<double> values) {
 /// Measures how far vertices lie off their neighbors.
 class Deviations {
  public:
-  Deviations(const TriMesh& mesh, const Neighbors& neighbors, std::span<const Vec3> normals)
-      : mesh_(mesh), neighbors_(neighbors), normals_(normals) {}
+  explicit Deviations(const RoughSurface& surface)
+      : mesh_(surface.mesh), neighbors_(surface.neighbors), normals_(surface.normals) {}
 
   /// The deviation of a vertex from the quadric through its rings, over the standard deviation that noise of
   /// 1 would give it.
@@ -61,7 +61,7 @@ class Deviations {
     }
     if (!(normal.squaredNorm() > 0.0) || !(farthest > 0.0)) return std::nullopt;
     Quadric quadric(mesh_.positions[vertex], normal.normalized(), std::sqrt(farthest));
-    for (const Index v : around) quadric.add(mesh_.positions[v]);
+    quadric.add(around, mesh_.positions);
     const auto value = quadric.value();
     if (!value || value->variance > kMostVariance) return std::nullopt;
     return -value->height / std::sqrt(1.0 + value->variance);
@@ -113,12 +113,10 @@ double correlation(const std::vector<std::array<double, 2>>& pairs, double sigma
 
 }  // namespace
 
-double noise_of(const engine::Context& context, const TriMesh& mesh) {
-  if (mesh.empty()) return 0.0;
-  const double least = kLeastNoise * longest_side(mesh);
-  const Neighbors neighbors(mesh);
-  const std::vector<Vec3> normals = vertex_normals(mesh);
-  const Deviations deviations(mesh, neighbors, normals);
+double noise_of(const engine::Context& context, const RoughSurface& surface) {
+  if (surface.mesh.empty()) return 0.0;
+  const double least = kLeastNoise * longest_side(surface.mesh);
+  const Deviations deviations(surface);
   if (deviation(deviations.pairs(context, kFirst)) < least) return 0.0;
   const auto pairs = deviations.pairs(context, kThorough);
   const double sigma = deviation(pairs);

@@ -17,18 +17,21 @@ Quadric::Quadric(const Vec3& origin, const Vec3& normal, double scale)
       v_(normal.cross(u_)),
       scale_(scale) {}
 
-void Quadric::add(const Vec3& p) {
-  const Vec3 d = p - origin_;
-  const double u = d.dot(u_), v = d.dot(v_), h = d.dot(normal_);
-  const double uu = u * u, uv = u * v, vv = v * v;
-  Moments& s = sum_;
-  s.u += u, s.v += v;
-  s.uu += uu, s.uv += uv, s.vv += vv;
-  s.uuu += u * uu, s.uuv += u * uv, s.uvv += u * vv, s.vvv += v * vv;
-  s.uuuu += uu * uu, s.uuuv += uu * uv, s.uuvv += uu * vv, s.uvvv += uv * vv, s.vvvv += vv * vv;
-  s.h += h, s.hu += h * u, s.hv += h * v;
-  s.huu += h * uu, s.huv += h * uv, s.hvv += h * vv, s.hh += h * h;
-  ++count_;
+void Quadric::add(std::span<const Index> points, std::span<const Vec3> positions) {
+  Moments s = sum_;  // in registers
+  for (const Index i : points) {
+    const Vec3 d = positions[i] - origin_;
+    const double u = d.dot(u_), v = d.dot(v_), h = d.dot(normal_);
+    const double uu = u * u, uv = u * v, vv = v * v;
+    s.u += u, s.v += v;
+    s.uu += uu, s.uv += uv, s.vv += vv;
+    s.uuu += u * uu, s.uuv += u * uv, s.uvv += u * vv, s.vvv += v * vv;
+    s.uuuu += uu * uu, s.uuuv += uu * uv, s.uuvv += uu * vv, s.uvvv += uv * vv, s.vvvv += vv * vv;
+    s.h += h, s.hu += h * u, s.hv += h * v;
+    s.huu += h * uu, s.huv += h * uv, s.hvv += h * vv, s.hh += h * h;
+  }
+  sum_ = s;
+  count_ += static_cast<int>(points.size());
 }
 
 Quadric::Matrix Quadric::squares() const {

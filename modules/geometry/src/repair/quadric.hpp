@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include <Eigen/Dense>
 
@@ -27,13 +28,14 @@ class QuadricPatch {
   Eigen::Matrix<double, 6, 6> covariance_;
 };
 
-/// Least squares of a height over a plane by 1, u, v, u^2, u v and v^2; points are added one by one.
+/// Least squares of a height over a plane by 1, u, v, u^2, u v and v^2; points are added bit by bit.
 class Quadric {
  public:
   /// `scale`: the usual distance of the points, which conditions the equations.
   Quadric(const Vec3& origin, const Vec3& normal, double scale);
 
-  void add(const Vec3& p);
+  /// Adds some of the positions.
+  void add(std::span<const Index> points, std::span<const Vec3> positions);
   int count() const { return count_; }
 
   struct Value {

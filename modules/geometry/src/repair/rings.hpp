@@ -4,23 +4,9 @@
 #include <span>
 #include <vector>
 
-#include <bodice/geometry/tri_mesh.hpp>
+#include <bodice/geometry/neighbors.hpp>
 
 namespace bodice::inline v0_1::geometry {
-
-/// The neighbors of each vertex of a mesh, in compressed rows.
-class Neighbors {
- public:
-  explicit Neighbors(const TriMesh& mesh);
-  std::size_t vertices() const { return offset_.size() - 1; }
-  std::span<const Index> of(std::size_t vertex) const {
-    return {all_.data() + offset_[vertex], offset_[vertex + 1] - offset_[vertex]};
-  }
-
- private:
-  std::vector<std::size_t> offset_;  ///< #V + 1
-  std::vector<Index> all_;           ///< ascending within a vertex
-};
 
 /// Rings of neighbors around one vertex after another, in memory that is kept.
 class Rings {

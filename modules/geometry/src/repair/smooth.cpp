@@ -66,7 +66,7 @@ class Smoother {
     const Vec3& origin = noisy_.positions[vertex];
     const double farthest = std::max(kFarthest * longest_, 4.0 * noise_);
     Quadric quadric(origin, normals_[vertex], farthest);
-    quadric.add(origin);
+    quadric.add({&vertex, 1}, noisy_.positions);
     HeightRange range;
     rings.begin(vertex);
     for (int count = 1;; ++count) {
@@ -85,10 +85,8 @@ class Smoother {
   /// Whether the ring's vertices are near enough on average; they are added.
   bool add(std::span<const Index> ring, const Vec3& origin, double farthest, Quadric& quadric) const {
     double sum = 0.0;
-    for (const Index v : ring) {
-      sum += (noisy_.positions[v] - origin).norm();
-      quadric.add(noisy_.positions[v]);
-    }
+    for (const Index v : ring) sum += (noisy_.positions[v] - origin).norm();
+    quadric.add(ring, noisy_.positions);
     return sum < farthest * static_cast<double>(ring.size());
   }
 
@@ -169,10 +167,11 @@ void for_each_in_blocks(const engine::Context& context, std::size_t count, const
 
 }  // namespace
 
-std::vector<Vec3> without_noise(const engine::Context& context, const TriMesh& mesh, double noise,
+std::vector<Vec3> without_noise(const engine::Context& context, const RoughSurface& surface, double noise,
                                 std::span<const Index> vertices) {
-  const Neighbors neighbors(mesh);
-  const std::vector<Vec3> normals = smooth_normals(context, mesh, neighbors);
+  const TriMesh& mesh = surface.mesh;
+  const Neighbors& neighbors = surface.neighbors;
+  const std::vector<Vec3> normals = smooth_normals(context, neighbors, surface.normals);
   const Smoother smoother(mesh, normals, noise);
   std::vector<Vec3> smooth(vertices.size());
   for_each_in_blocks(context, vertices.size(), neighbors, [&](std::size_t i, Rings& rings) {
@@ -183,9 +182,10 @@ std::vector<Vec3> without_noise(const engine::Context& context, const TriMesh& m
   return smooth;
 }
 
-std::vector<Vec3> without_noise(const engine::Context& context, const TriMesh& mesh, double noise) {
-  const Neighbors neighbors(mesh);
-  const std::vector<Vec3> normals = smooth_normals(context, mesh, neighbors);
+std::vector<Vec3> without_noise(const engine::Context& context, const RoughSurface& surface, double noise) {
+  const TriMesh& mesh = surface.mesh;
+  const Neighbors& neighbors = surface.neighbors;
+  const std::vector<Vec3> normals = smooth_normals(context, neighbors, surface.normals);
   const Smoother smoother(mesh, normals, noise);
   std::vector<Patch> patches(mesh.positions.size());
   for_each_in_blocks(context, patches.size(), neighbors, [&](std::size_t v, Rings& rings) {

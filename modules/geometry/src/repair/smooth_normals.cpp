@@ -10,9 +10,9 @@ constexpr std::size_t kNormalGrain = 4096;
 
 }  // namespace
 
-std::vector<Vec3> smooth_normals(const engine::Context& context, const TriMesh& mesh,
-                                 const Neighbors& neighbors) {
-  std::vector<Vec3> normals = vertex_normals(mesh), next(normals.size());
+std::vector<Vec3> smooth_normals(const engine::Context& context, const Neighbors& neighbors,
+                                 std::vector<Vec3> normals) {
+  std::vector<Vec3> next(normals.size());
   for (int pass = 0; pass < kNormalRings; ++pass) {
     engine::parallel_for(context, normals.size(), kNormalGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {

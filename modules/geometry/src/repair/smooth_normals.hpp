@@ -10,8 +10,8 @@
 
 namespace bodice::inline v0_1::geometry {
 
-/// #V: normals averaged over two rings of neighbors. Zero where a vertex has no triangles.
-std::vector<Vec3> smooth_normals(const engine::Context& context, const TriMesh& mesh,
-                                 const Neighbors& neighbors);
+/// #V: normals of vertices averaged over two rings of neighbors. Zero where a vertex has no triangles.
+std::vector<Vec3> smooth_normals(const engine::Context& context, const Neighbors& neighbors,
+                                 std::vector<Vec3> normals);
 
 }  // namespace bodice::geometry

@@ -5,10 +5,8 @@
 #include <cmath>
 
 #include <bodice/engine/parallel.hpp>
-#include <bodice/geometry/noise.hpp>
 
 #include "repair/merging.hpp"
-#include "repair/rings.hpp"
 
 namespace bodice::inline v0_1::geometry {
 namespace {
@@ -60,9 +58,9 @@ std::vector<std::vector<Index>> vertices_of(const std::vector<std::uint8_t>& sla
 }
 
 /// Each position the mean of its neighbors and itself, again and again.
-std::vector<Vec3> averaged(const engine::Context& context, const TriMesh& mesh) {
-  const Neighbors neighbors(mesh);
-  std::vector<Vec3> positions = mesh.positions, next(positions.size());
+std::vector<Vec3> averaged(const engine::Context& context, const RoughSurface& surface) {
+  const Neighbors& neighbors = surface.neighbors;
+  std::vector<Vec3> positions = surface.mesh.positions, next(positions.size());
   for (int pass = 0; pass < kAverages; ++pass) {
     engine::parallel_for(context, positions.size(), kGrainOfAverages,
                          [&](std::size_t begin, std::size_t end) {
@@ -93,11 +91,11 @@ ThinnedSurface thin(const engine::Context& context, const TriMesh& mesh, const T
   return merging.finish();
 }
 
-ThinnedSurface thin_noisy(const engine::Context& context, const TriMesh& mesh, double noise,
+ThinnedSurface thin_noisy(const engine::Context& context, const RoughSurface& surface, double noise,
                           ThinOptions options) {
   options.tolerance_m = std::max(options.tolerance_m, kNoiseLeft * noise);
-  ThinnedSurface thinned = thin(context, {averaged(context, mesh), mesh.triangles}, options);
-  thinned.mesh.positions = without_noise(context, mesh, noise, thinned.kept);
+  ThinnedSurface thinned = thin(context, {averaged(context, surface), surface.mesh.triangles}, options);
+  thinned.mesh.positions = without_noise(context, surface, noise, thinned.kept);
   return thinned;
 }
 

@@ -85,6 +85,11 @@ Welder::Link Welder::link(Index point) {
   return {std::exchange(head_[hash & (head_.size() - 1)], point), mark_of(hash)};
 }
 
+void Welder::fetch(const Vec3& p) const {
+  const Cell cell = cell_of(p);
+  __builtin_prefetch(&head_[hash_of(cell.x, cell.y, cell.z) & (head_.size() - 1)]);
+}
+
 Index Welder::add(const Vec3& p) {
   const Cell low = cell_of(p - Vec3::Constant(tolerance_));
   const Cell high = cell_of(p + Vec3::Constant(tolerance_));

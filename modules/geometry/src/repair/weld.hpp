@@ -20,6 +20,8 @@ class Welder {
   Welder(double tolerance_m, std::size_t expected);
   /// The number of the representative of `p`, a new one if none is near.
   Index add(const Vec3& p);
+  /// Has the memory of a point's bucket at hand, which is added soon.
+  void fetch(const Vec3& p) const;
   const std::vector<Vec3>& representatives() const { return points_; }
 
  private:

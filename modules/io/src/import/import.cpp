@@ -56,12 +56,13 @@ constexpr double kFolded = 0.03;
 engine::Result<double> refine_scan(const engine::Context& context, const ImportOptions& options,
                                    geometry::RepairedMesh& scan, std::vector<engine::Warning>& warnings) {
   return engine::catch_canceled("The smoothing of noise", [&]() -> engine::Result<double> {
-    const double noise = geometry::noise_of(context, scan.mesh);
+    const geometry::RoughSurface surface(scan.mesh);
+    const double noise = geometry::noise_of(context, surface);
     const bool noisy = noise > 0.0, keeps = noisy && options.keep_noise;
     if (is_overfine(scan.mesh) && !options.keep_vertices && !keeps)
-      warnings.push_back(thin_skin(context, noise, scan));
+      warnings.push_back(thin_skin(context, surface, noise, scan));
     else if (noisy && !keeps)
-      scan.mesh.positions = geometry::without_noise(context, scan.mesh, noise);
+      scan.mesh.positions = geometry::without_noise(context, surface, noise);
     if (!keeps && geometry::folded_share(scan.mesh) > kFolded)
       scan.mesh.positions = geometry::without_folds(context, scan.mesh);
     return noise;

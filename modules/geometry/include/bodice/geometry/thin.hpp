@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <bodice/engine/context.hpp>
+#include <bodice/geometry/noise.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
 namespace bodice::inline v0_1::geometry {
@@ -31,7 +32,7 @@ ThinnedSurface thin(const engine::Context& context, const TriMesh& mesh, const T
 /// The same of a surface with noise of a standard deviation: its shape is judged without, and what stays of
 /// it lies where without_noise() moves it by all vertices. Cost: also some ten microseconds a vertex that
 /// stays.
-ThinnedSurface thin_noisy(const engine::Context& context, const TriMesh& mesh, double noise,
+ThinnedSurface thin_noisy(const engine::Context& context, const RoughSurface& surface, double noise,
                           ThinOptions options);
 
 }  // namespace bodice::geometry

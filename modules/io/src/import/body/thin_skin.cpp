@@ -26,13 +26,14 @@ bool is_overfine(const geometry::TriMesh& skin) {
   return skin.positions.size() > kMany;
 }
 
-engine::Warning thin_skin(const engine::Context& context, double noise, geometry::RepairedMesh& skin) {
+engine::Warning thin_skin(const engine::Context& context, const geometry::RoughSurface& surface, double noise,
+                          geometry::RepairedMesh& skin) {
   const std::size_t before = skin.mesh.positions.size();
   const double longest = geometry::bounding_box(skin.mesh.positions).size().maxCoeff();
   const double edge = std::sqrt(surface_area(skin.mesh) / (kEnough * 0.5 * std::sqrt(3.0)));
   const geometry::ThinOptions options{.edge_m = kShortest * edge, .tolerance_m = kTolerance * longest};
   geometry::ThinnedSurface thinned =
-      noise > 0.0 ? thin_noisy(context, skin.mesh, noise, options) : thin(context, skin.mesh, options);
+      noise > 0.0 ? thin_noisy(context, surface, noise, options) : thin(context, skin.mesh, options);
   for (Index& v : skin.vertex_of_input)
     if (v != kNoIndex) v = thinned.vertex_of_input[v];
   for (Index& t : skin.triangle_of_input)
