@@ -68,3 +68,22 @@ TEST_CASE("a fold that a web hides is in doubt: sooner on a skin that was cut or
     CHECK(doubts(as_given) == (id == LandmarkId::kArmpitL ? 1 : 0));
   }
 }
+
+TEST_CASE(
+    "a crotch that looks right on a closed skin is in doubt only where it is far off, or limbs were cut") {
+  for (const double confidence : {0.5, 0.9})
+    for (const bool cut : {false, true}) {
+      auto found = found_on(synth::Pose::kArmsDown);
+      const auto below = anatomy::folds_below_expected(found.landmarks);
+      REQUIRE(below);
+      body::Landmark& crotch = mark(found, LandmarkId::kPerineum);
+      crotch.position -= (0.022 - (*below)[2]) * found.stature_m * found.up;
+      crotch.confidence = confidence;
+      if (cut) found.warnings.push_back({"limbs-cut", "", "", ""});
+      const std::vector<std::uint8_t> closed(4, 1);
+      anatomy::Options options;
+      options.made_up = closed;
+      anatomy::doubt_folds(options, found);
+      CHECK(doubts(found) == (confidence < 0.85 || cut ? 1 : 0));
+    }
+}

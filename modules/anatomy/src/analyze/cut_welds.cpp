@@ -8,11 +8,13 @@
 
 #include <bodice/anatomy/plausible.hpp>
 
+#include "analyze/crown_of_skin.hpp"
 #include "analyze/folds_hidden.hpp"
 #include "analyze/thin_copy.hpp"
 #include "analyze/webs.hpp"
 #include "check/fold_levels.hpp"
 #include "check/named_folds.hpp"
+#include "check/thighs.hpp"
 
 namespace bodice::inline v0_1::anatomy {
 namespace {
@@ -39,6 +41,12 @@ constexpr double kBelowFold = 0.025;
 
 /// Folds of a copy so many times as deep as the first lie too high, so that less is doubtful.
 constexpr double kMuchDeeper = 2.0, kDeepMisfit = 0.6;
+
+/// The least product of the confidences of armpits and crotch that speaks for them. Scans that were read
+/// right have .64 or more, and those in which one of the folds was wrong .33 or less.
+constexpr double kFoldsFit = 0.6;
+/// A stature that changes by less than this share is the same one.
+constexpr double kSameStature = 0.015;
 
 /// A body with welded limbs, and how it is analyzed.
 struct WeldedBody {
@@ -89,13 +97,30 @@ void warn(const std::string& where, const ThinCopy& thin, bool sure, Anatomy& ap
        sure ? "" : "Check the borders of parts there; a pose with arms and legs apart needs no cut.", sure});
 }
 
-/// Whether nothing but a handle is in doubt, and armpits and crotch lie where the limbs let expect them.
-/// `webs_only`: their folds were found by the room inside the body, which is evidence as well.
-bool is_sure(const Anatomy& apart, const ThinCopy& thin, bool webs_only) {
+/// Whether armpits and crotch look as they do on known bodies.
+bool folds_fit(const Anatomy& apart) {
+  double fit = 1.0;
+  for (const NamedFold& fold : kNamedFolds)
+    fit *= apart.landmarks[static_cast<std::size_t>(fold.id)].confidence;
+  return fit >= kFoldsFit;
+}
+
+/// Whether a body that stands looks right where there is nothing that lets expect its folds: these look as on
+/// known bodies, and it is as tall as on the skin that is not cut.
+bool looks_right(const engine::Result<Anatomy>& as_is, const Anatomy& apart) {
+  return as_is && folds_fit(apart) && std::ranges::min(thigh_cosines(apart)) >= kUpright &&
+         std::abs(apart.stature_m / as_is->stature_m - 1.0) < kSameStature;
+}
+
+/// Whether nothing but a handle is in doubt, and armpits and crotch lie where the limbs let expect them, or
+/// look right. `webs_only`: their folds were found by the room inside the body, which is evidence as well.
+bool is_sure(const engine::Result<Anatomy>& as_is, const Anatomy& apart, const ThinCopy& thin,
+             bool webs_only) {
   const bool deep = thin.depth > kDepths[0] * kMuchDeeper * apart.stature_m;
   const auto handles = std::ranges::count(apart.warnings, "limbs-fused", &engine::Warning::code);
   if (doubts(apart) > handles || fold_misfit(apart.landmarks) > (deep ? kDeepMisfit : 1.0)) return false;
-  return folds_below_expected(apart.landmarks) || (webs_only && handles == 0);
+  if (folds_below_expected(apart.landmarks) || (webs_only && handles == 0)) return true;
+  return !deep && looks_right(as_is, apart);
 }
 
 /// A thin copy that has come apart, and what was found on it.
@@ -171,8 +196,9 @@ Anatomy carried(const WeldedBody& body, const Parted& parted, const engine::Resu
   Anatomy apart = carry_out(body.context, parted.thin, parted.found, body.mesh);
   const std::string where = as_is ? hidden_folds(*as_is, apart) : "";
   doubt(parted.left, apart);
+  if (as_is) judge_crown(*as_is, apart);
   if (as_is) apart.stages = as_is->stages;
-  warn(where, parted.thin, is_sure(apart, parted.thin, webs_only), apart);
+  warn(where, parted.thin, is_sure(as_is, apart, parted.thin, webs_only), apart);
   return apart;
 }
 
