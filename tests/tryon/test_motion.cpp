@@ -189,6 +189,22 @@ TEST_CASE("a clip that is prepared has a nearer proxy in its frames, in the part
   CHECK(near.proxy_error.error_m.mean < 0.85 * far.proxy_error.error_m.mean);
 }
 
+TEST_CASE("cloth meets the proxy of a clip that is prepared, and not only the report does") {
+  Walker w = walker({}, "walk", proxy::Tier::kRelief);
+  std::vector<geometry::Index> under;
+  w.worn = {tight_shorts(w.body.skin, under)};
+  tryon::DrapeOptions options{
+      .frames = 2, .kept_frames = 2, .thickness_m = 0.0015, .motion = &w.motion, .ramp_s = 0.0};
+  options.solver.substeps = 2;
+  const auto prepared = tryon::drape({}, w.body, w.worn, options);
+  options.prepare_clip = false;
+  const auto carried = tryon::drape({}, w.body, w.worn, options);
+  REQUIRE_MESSAGE(prepared.ok(), prepared.error().sentence());
+  REQUIRE_MESSAGE(carried.ok(), carried.error().sentence());
+  REQUIRE(prepared->report.base_poses > 0);
+  CHECK(prepared->report.hash != carried->report.hash);
+}
+
 TEST_CASE("a drape on a moving body has the same bits for 1, 3 and 7 workers") {
   std::uint64_t first = 0;
   for (const int workers : {1, 3, 7}) {

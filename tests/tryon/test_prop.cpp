@@ -35,6 +35,21 @@ tryon::PreparedBody made_prop(const engine::Context& context, const geometry::Tr
   return std::move(prop).value();
 }
 
+/// The built-in body, a chair beside it, and both as one proxy.
+struct BesideChair {
+  const tryon::PreparedBody& body;
+  tryon::PreparedBody chair;
+  proxy::BodyProxy all;
+};
+
+BesideChair beside_chair() {
+  const tryon::PreparedBody& body = bound_builtin_body(kVertices, proxy::Tier::kRelief);
+  tryon::PreparedBody chair = made_prop({}, synth::make_chair({1.5, 0.45, 0.0}, 0.03), body);
+  auto all = tryon::with_props(body.fit.proxy, {&chair, 1});
+  REQUIRE_MESSAGE(all.ok(), all.error().sentence());
+  return {body, std::move(chair), std::move(all).value()};
+}
+
 /// Makes a level cloth around a point, without pins.
 tryon::WornGarment sheet_over(const Vec3& point, double width_m, int cells) {
   geometry::TriMesh sheet = bodice_test::sheet(width_m, width_m, cells, cells);
@@ -115,13 +130,10 @@ TEST_CASE("a prop changes nothing of the body's own fit or of cloth that is far 
 
 TEST_CASE("a prop stays where it is while the joints of the body move") {
   const engine::Context context;
-  const tryon::PreparedBody& body = bound_builtin_body(kVertices, proxy::Tier::kRelief);
-  const tryon::PreparedBody chair = made_prop(context, synth::make_chair({1.5, 0.45, 0.0}, 0.03), body);
-  const auto all = tryon::with_props(body.fit.proxy, {&chair, 1});
-  REQUIRE_MESSAGE(all.ok(), all.error().sentence());
-  CHECK(all->binding()->joint_names.back() == proxy::kStillJoint);
+  const auto [body, chair, all] = beside_chair();
+  CHECK(all.binding()->joint_names.back() == proxy::kStillJoint);
 
-  auto poser = binding::Poser::make(*all), own = binding::Poser::make(body.fit.proxy);
+  auto poser = binding::Poser::make(all), own = binding::Poser::make(body.fit.proxy);
   REQUIRE(poser.ok());
   REQUIRE(own.ok());
   std::vector<rig::Affine> joints(body.fit.proxy.binding()->bind);
@@ -132,21 +144,18 @@ TEST_CASE("a prop stays where it is while the joints of the body move") {
   REQUIRE(poser->pose(context, joints).ok());
   for (int i = 0; i < 200; ++i) {
     const Vec3 p(1.5 + 0.3 * std::sin(1.1 * i), 0.5 + 0.5 * std::sin(1.7 * i), 0.3 * std::sin(2.3 * i));
-    CHECK(proxy::posed_proxy_distance(*all, poser->posed(), p).distance ==
+    CHECK(proxy::posed_proxy_distance(all, poser->posed(), p).distance ==
           doctest::Approx(proxy::proxy_distance(chair.fit.proxy, p).distance).epsilon(1e-9));
     const Vec3 q(0.3 * std::sin(1.1 * i), 0.9 + 0.9 * std::sin(1.7 * i), -0.4 + 0.3 * std::sin(2.3 * i));
     CHECK(
-        proxy::posed_proxy_distance(*all, poser->posed(), q).distance ==
+        proxy::posed_proxy_distance(all, poser->posed(), q).distance ==
         doctest::Approx(proxy::posed_proxy_distance(body.fit.proxy, own->posed(), q).distance).epsilon(1e-9));
   }
 }
 
 TEST_CASE("beside a prop a body takes its base poses, and the prop keeps its tables") {
   const engine::Context context;
-  const tryon::PreparedBody& body = bound_builtin_body(kVertices, proxy::Tier::kRelief);
-  const tryon::PreparedBody chair = made_prop(context, synth::make_chair({1.5, 0.45, 0.0}, 0.03), body);
-  const auto all = tryon::with_props(body.fit.proxy, {&chair, 1});
-  REQUIRE_MESSAGE(all.ok(), all.error().sentence());
+  const auto [body, chair, all] = beside_chair();
   std::vector<engine::Warning> warnings;
   const auto motion = tryon::find_motion(context, body.skin, {.motion = "squat"}, warnings);
   REQUIRE(motion.ok());
@@ -154,10 +163,10 @@ TEST_CASE("beside a prop a body takes its base poses, and the prop keeps its tab
   rig::joint_matrices(motion->rig.skeleton, motion->clip, 1.0, joints);
   const auto base = tryon::make_base_pose(context, body.fit.proxy, body.skin, joints, "squat");
   REQUIRE(base.ok());
-  const auto of_all = std::make_shared<const proxy::BasePose>(proxy::with_things(**base, *all));
-  REQUIRE(proxy::check_base(*all, *of_all).ok());
+  const auto of_all = std::make_shared<const proxy::BasePose>(proxy::with_things(**base, all));
+  REQUIRE(proxy::check_base(all, *of_all).ok());
 
-  auto poser = binding::Poser::make(*all), own = binding::Poser::make(body.fit.proxy),
+  auto poser = binding::Poser::make(all), own = binding::Poser::make(body.fit.proxy),
        carried = binding::Poser::make(body.fit.proxy);
   REQUIRE(poser->keep_base(of_all).ok());
   REQUIRE(own->keep_base(*base).ok());
@@ -168,11 +177,11 @@ TEST_CASE("beside a prop a body takes its base poses, and the prop keeps its tab
   double most_m = 0.0;
   for (int i = 0; i < 200; ++i) {
     const Vec3 p(1.5 + 0.3 * std::sin(1.1 * i), 0.5 + 0.5 * std::sin(1.7 * i), 0.3 * std::sin(2.3 * i));
-    CHECK(proxy::posed_proxy_distance(*all, poser->posed(), p).distance ==
+    CHECK(proxy::posed_proxy_distance(all, poser->posed(), p).distance ==
           doctest::Approx(proxy::proxy_distance(chair.fit.proxy, p).distance).epsilon(1e-9));
     const Vec3 q(0.3 * std::sin(1.1 * i), 0.5 + 0.5 * std::sin(1.7 * i), 0.3 * std::sin(2.3 * i));
     const double with_base_m = proxy::posed_proxy_distance(body.fit.proxy, own->posed(), q).distance;
-    CHECK(proxy::posed_proxy_distance(*all, poser->posed(), q).distance ==
+    CHECK(proxy::posed_proxy_distance(all, poser->posed(), q).distance ==
           doctest::Approx(with_base_m).epsilon(1e-9));
     most_m = std::max(
         most_m,

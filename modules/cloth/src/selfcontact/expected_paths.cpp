@@ -17,7 +17,7 @@ constexpr float kSmoothing = 0.25f;
 // rest halves with every few substeps, and floats that have become subnormal take a hundred times as long.
 constexpr float kNoDrift2 = 1e-20f;
 
-// What was expected at the last search of particles after some time since.
+// Where the last search expects particles to be by now, and how far from there they may be.
 struct Expectation {
   const SelfContact& self;
   float share, most2;

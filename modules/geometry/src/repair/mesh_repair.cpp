@@ -77,7 +77,7 @@ class Repair {
   /// Fills representative_, numbered by first use, and welded_.
   void weld() {
     std::vector<Vec3> used;
-    std::vector<Index> vertex;  // of each
+    std::vector<Index> vertex;  // the input vertex of each used point
     std::vector<bool> seen(input_.positions.size(), false);
     for_each_corner([&](Index v) {
       if (seen[v]) return;

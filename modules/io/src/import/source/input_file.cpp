@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstdint>
 #include <fstream>
+#include <iterator>
 
 #include <bodice/engine/text.hpp>
 
@@ -138,7 +139,8 @@ std::string read_text(const std::filesystem::path& file) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   std::ifstream stream(file, std::ios::binary);
-  if (error || !stream) return text;
+  if (!stream) return text;
+  if (error) return {std::istreambuf_iterator<char>(stream), {}};  // a pipe has no size
   text.resize(size);
   stream.read(text.data(), static_cast<std::streamsize>(size));
   text.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));

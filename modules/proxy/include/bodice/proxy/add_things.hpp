@@ -20,8 +20,8 @@ inline constexpr std::string_view kStillJoint = "still";
 /// of the body. O(size of all).
 engine::Result<BodyProxy> add_things(const BodyProxy& body, std::span<const BodyProxy> things);
 
-/// A base pose of a body for the body with its things, `all`, of which the latter keep their tables. O(size
-/// of all).
+/// A base pose of a body for `all`, the body with its things, which keep their tables. Costs O(size of
+/// `all`).
 BasePose with_things(const BasePose& of_body, const BodyProxy& all);
 
 }  // namespace bodice::proxy

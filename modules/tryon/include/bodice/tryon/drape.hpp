@@ -88,7 +88,7 @@ struct DrapeReport {
   std::uint64_t hash = 0;                       ///< hash of the final state, equal for any number of workers
   double lifted_m = 0.0;  ///< how far the start was moved out of a proxy that is wider than the skin, at most
   double ramp_s = 0.0;    ///< from the bind pose to the clip's first frame
-  std::size_t base_poses = 0;   ///< of the clip, for which tables were solved anew
+  std::size_t base_poses = 0;   ///< number of poses along the clip for which tables were solved anew
   std::vector<KeptFrame> kept;  ///< the kept frames of a body that moves
   std::vector<DrapedGarment> garments;
   std::vector<PropReport> props;

@@ -1,0 +1,23 @@
+// Where particles are expected to go.
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "selfcontact/expected_paths.hpp"
+
+using namespace bodice;
+
+TEST_CASE("the drift of cloth that has come to rest becomes zero, and never subnormal") {
+  cloth::SelfContact self;
+  self.before.resize(3), self.now.resize(3), self.drift.resize(3);
+  self.drift[1] = {1e-3f, 0.0f, -2.0f, 0.0f};
+  self.drift[2] = {3e-9f, 1e-12f, 0.0f, 0.0f};
+  for (int substep = 0; substep < 1000; ++substep) {
+    cloth::follow_drift({}, 1.0f / 480.0f, self);
+    for (const cloth::Point& drift : self.drift)
+      for (const float along : {drift.x, drift.y, drift.z}) CHECK(std::fpclassify(along) != FP_SUBNORMAL);
+  }
+  for (const cloth::Point& drift : self.drift) CHECK(std::abs(drift.x) + std::abs(drift.z) == 0.0f);
+}
