@@ -141,6 +141,7 @@ function(bodice_define_build_flags)
   if(BODICE_SANITIZE)
     target_compile_options(bodice_build_flags INTERFACE
       -fsanitize=${BODICE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
+      -fno-sanitize=null,object-size  # AddressSanitizer finds these, too; each check of a pointer costs compiling
       -g1)  # lines for the reports; tracking variables through the kernels takes g++ a quarter of an hour
     target_link_options(bodice_build_flags INTERFACE -fsanitize=${BODICE_SANITIZE})
   endif()
