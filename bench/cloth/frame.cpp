@@ -1,10 +1,14 @@
 // What does a frame of cloth cost, by particles, substeps and workers, and how much stretch is left?
-// The program prints the bars first; with --benchmark_filter=none it ends after them. Rows with body:0 step
-// the same garment without the body, so that the difference is the cost of contact.
+// The program prints the bars first; with --benchmark_filter=none it ends after them, and with --walking it
+// prints only that of a body that walks. Rows with body:0 step the same garment without the body, so that the
+// difference is the cost of contact.
+#include <string_view>
+
 #include <benchmark/benchmark.h>
 
 #include "bars.hpp"
 #include "scene.hpp"
+#include "walking.hpp"
 
 using namespace bodice;
 
@@ -42,6 +46,9 @@ BENCHMARK(frame)
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
-  bench::print_bars();
+  const bool only_walking = argc > 1 && std::string_view(argv[1]) == "--walking";
+  if (!only_walking) bench::print_bars();
+  bench::print_walking();
+  if (only_walking) return 0;
   benchmark::RunSpecifiedBenchmarks();
 }
