@@ -5,6 +5,8 @@
 
 #include <bodice/engine/parallel.hpp>
 
+#include "base/tolerances.hpp"
+
 namespace bodice::inline v0_1::cloth {
 namespace {
 
@@ -78,6 +80,8 @@ void find_motion(const ContactFrame& frame, std::size_t begin, std::size_t end, 
     points.put(k, points.x[k], points.y[k], points.z[k], load(point(by)));
   }
   points.query(body, end - begin, nearest);
+  const Steepness& steepness = body.has_relief() ? kReliefSteepness : kPlainSteepness;
+  const float touching_m = static_cast<float>(frame.thickness_m) + steepness.rise_m;
   const double follow = double{motion.follow};
   if (!kept.empty()) std::copy_n(nearest, end - begin, &kept[begin]);
   for (std::size_t i = begin; i < end; ++i) {
@@ -88,7 +92,16 @@ void find_motion(const ContactFrame& frame, std::size_t begin, std::size_t end, 
     motion.by[i] = point(by), motion.normal[i] = point(normal);
     motion.shift[i] = point(follow * by + (1.0 - follow) * by.dot(normal) * normal);
     motion.turn[i] = point(follow * turn);
+    motion.clear[i] = point(points.at(i - begin));
+    motion.clear[i].weight = (at.signed_distance - touching_m) / steepness.slope;
   }
+}
+
+// Whether particle i cannot touch the body on a path that it sees between these points.
+bool is_clear(const BodyMotion& motion, std::size_t i, Float4 from, Float4 to) {
+  const float radius_m = motion.clear[i].weight;
+  const Float4 at = load(motion.clear[i]), before = xyz(from - at), now = xyz(to - at);
+  return radius_m > 0.0f && std::max(dot(before, before), dot(now, now)) < radius_m * radius_m;
 }
 
 // Particles of a patch that are resolved together.
@@ -104,7 +117,8 @@ struct Group {
   }
 };
 
-// The particles of a patch by the lengths of their paths in a substep, relative to the body.
+// The particles of a patch that may touch the body, by the lengths of their paths in a substep, relative to
+// it.
 struct ByPath {
   Group short_paths, long_paths;
 
@@ -113,8 +127,9 @@ struct ByPath {
     for (std::size_t i = begin; i < end; ++i) {
       const Float4 shift = load(motion.shift[i]);
       const Float4 from = (1.0f - substep.begin) * shift, to = (1.0f - substep.end) * shift;
-      const Float4 path =
-          Float4{p.x[i] - p.old_x[i], p.y[i] - p.old_y[i], p.z[i] - p.old_z[i], 0.0f} + to - from;
+      const Float4 old = {p.old_x[i], p.old_y[i], p.old_z[i], 0.0f}, at = {p.x[i], p.y[i], p.z[i], 0.0f};
+      if (is_clear(motion, i, old + from, at + to)) continue;
+      const Float4 path = at - old + to - from;
       const float length_m = std::sqrt(path[0] * path[0] + path[1] * path[1] + path[2] * path[2]);
       Group& group = length_m > motion.ccd_threshold_m ? long_paths : short_paths;
       // The collider moves safe positions with the whole frame's motion, so that they are given as before
@@ -156,7 +171,8 @@ collision::ContactReport resolve_group(const engine::Context& context, const Bod
 BodyMotion make_motion(std::size_t particles, double friction) {
   BodyMotion motion;
   motion.follow = static_cast<float>(std::clamp(friction / kFollowingFriction, 0.0, 1.0));
-  for (auto* vectors : {&motion.by, &motion.shift, &motion.normal, &motion.turn}) vectors->resize(particles);
+  for (auto* vectors : {&motion.by, &motion.shift, &motion.normal, &motion.turn, &motion.clear})
+    vectors->resize(particles);
   motion.along.resize(particles);
   motion.owner.assign(particles, collision::kNoEllipsoid);
   return motion;

@@ -34,6 +34,9 @@ struct BodyMotion {
       shift;  ///< #P: what the body sees of `by`: all along the normal, `follow` along the surface
   std::vector<Point> normal;  ///< #P: of the surface there when the frame ends; zero at rest
   std::vector<Point> turn;    ///< #P: rotation vector of the material in the frame, times `follow`; radians
+  /// #P: a point near the body as it is when the frame ends, and as its weight a radius, meters: nothing that
+  /// close to the point touches the body. Not above zero: it may.
+  std::vector<Point> clear;
   /// #P: over the pushes of a substep, the sum of their lengths times the displacement in the frame of what
   /// pushed along them, square meters. Over the length of their sum it is the displacement along that.
   std::vector<float> along;
