@@ -6,9 +6,11 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-// The square of the least cosine between the normals of a flat patch and their mean: 60 degrees. Slack lets
-// them turn by about 15 more until they are looked at again.
+// The square of the least cosine between the normals of a flat patch and their mean: 60 degrees.
 constexpr float kFlat2 = 0.25f;
+// Sine and cosine of the largest angle between a patch's mean normal and one of its normals until the patch
+// is looked at again: 75 degrees. From 90 on, it may lie over itself.
+constexpr float kSinMost = 0.9659258f, kCosMost = 0.2588190f;
 
 Float4 middle(const Float4 (&corner)[3]) {
   return (corner[0] + corner[1] + corner[2]) * (1.0f / 3.0f);
@@ -74,18 +76,21 @@ bool are_clear(const FacePair& p, float reach_m) {
   return p.common == 0 ? are_apart(p, reach_m) : are_on_sides(p, between(p), reach_m);
 }
 
-bool are_flat(const ContactMesh& mesh, std::size_t leaf, std::size_t other, std::span<const Point> at) {
+float turn_left(const ContactMesh& mesh, std::size_t leaf, std::size_t other, std::span<const Point> at) {
   Float4 normal[2 * kLeaf], mean = splat(0.0f);
   std::size_t count = 0;
   for (const Face& f : mesh.faces_of(leaf)) mean += normal[count++] = normal_of(f, at);
   if (other != leaf)
     for (const Face& f : mesh.faces_of(other)) mean += normal[count++] = normal_of(f, at);
-  const float wanted2 = kFlat2 * dot(mean, mean);
+  float least2 = 1.0f;  // of the squares of the cosines
   for (std::size_t k = 0; k < count; ++k) {
     const float along = dot(normal[k], mean);
-    if (!(along > 0.0f && along * along >= wanted2 * dot(normal[k], normal[k]))) return false;
+    if (!(along > 0.0f)) return 0.0f;
+    least2 = std::min(least2, along * along / (dot(normal[k], normal[k]) * dot(mean, mean)));
   }
-  return true;
+  if (!(least2 >= kFlat2)) return 0.0f;
+  // The sine of what is left, by that of a difference of angles.
+  return kSinMost * std::sqrt(least2) - kCosMost * std::sqrt(1.0f - least2);
 }
 
 }  // namespace bodice::cloth

@@ -19,11 +19,11 @@ FacePair face_pair(const Face& a, const Face& b, std::span<const Point> at);
 /// with a common edge are taken for no slivers.
 bool are_clear(const FacePair& pair, float reach_m);
 
-/// Whether two joined leaves (are_joined()) are so flat that they cannot touch each other: all normals are
-/// within an angle of their mean.
-/// Based on: Pascal Volino, Nadia Magnenat-Thalmann. Efficient Self-Collision Detection on Smoothly
-/// Discretized Surface Animations using Geometrical Shape Regularity. 1994. Differs: outlines are not tested,
-/// because a flat patch of so few triangles does not wind around itself.
-bool are_flat(const ContactMesh& mesh, std::size_t leaf, std::size_t other, std::span<const Point> at);
+/// How much farther the normals of two joined leaves (are_joined()) may turn before these can touch each
+/// other: the sine of that angle. Zero where the leaves are not flat now: a flat patch has all normals within
+/// an angle of their mean. Based on: Pascal Volino, Nadia Magnenat-Thalmann. Efficient Self-Collision
+/// Detection on Smoothly Discretized Surface Animations using Geometrical Shape Regularity. 1994. Differs:
+/// outlines are not tested, because a flat patch of so few triangles does not wind around itself.
+float turn_left(const ContactMesh& mesh, std::size_t leaf, std::size_t other, std::span<const Point> at);
 
 }  // namespace bodice::cloth

@@ -13,9 +13,6 @@ namespace bodice::inline v0_1::cloth {
 namespace {
 
 constexpr std::size_t kLeavesATask = 32;
-// A flat patch stays flat while its particles move against each other by less than this share of its
-// triangles' least height: their normals turn by about as many radians.
-constexpr float kTurnOfWidth = 0.25f;
 // Room for pairs at first, of all tasks and of each, so that few frames need more; unused room costs nothing.
 constexpr std::size_t kPairsAtFirst = 65536, kFewPairs = 2048;
 // Pairs out of use that a task keeps besides half as many as are in use.
@@ -74,15 +71,8 @@ struct LeafPair {
   }
 };
 
-// A group of two leaves that is listed for the first time.
-PairGroup new_group(const ContactMesh& mesh, const SweepTree& tree, std::size_t leaf, std::size_t other,
-                    float gap_m) {
-  const float room_m = distance(tree.node[tree.width + leaf], tree.node[tree.width + other]) - gap_m;
-  return {.leaf = {static_cast<std::uint32_t>(leaf), static_cast<std::uint32_t>(other)},
-          .next_m = room_m,
-          .find_m = room_m,
-          .joined = are_joined(mesh, leaf, other),
-          .inside = mesh.block[leaf] == mesh.block[other] && mesh.block[leaf] != kNoBlock};
+float room_between(const SweepTree& tree, std::size_t leaf, std::size_t other) {
+  return distance(tree.node[tree.width + leaf], tree.node[tree.width + other]);
 }
 
 // Lists the groups of a task; those that it had keep their pairs.
@@ -99,7 +89,8 @@ void list_groups(const ContactMesh& mesh, const SweepTree& tree, float reach_m, 
       };
       while (before != task.groups_before.end() && leaves(*before) < wanted) ++before;
       const bool known = before != task.groups_before.end() && leaves(*before) == wanted;
-      task.groups.push_back(known ? *before : new_group(mesh, tree, leaf, other, gap_m));
+      task.groups.push_back(known ? *before
+                                  : new_group(mesh, leaf, other, room_between(tree, leaf, other) - gap_m));
       task.groups.back().fresh = false;
       task.used += task.groups.back().end - task.groups.back().begin;
     });
@@ -129,6 +120,14 @@ std::vector<PairTask> make_pair_tasks(const ContactMesh& mesh) {
   return tasks;
 }
 
+PairGroup new_group(const ContactMesh& mesh, std::size_t leaf, std::size_t other, float room_m) {
+  return {.leaf = {static_cast<std::uint32_t>(leaf), static_cast<std::uint32_t>(other)},
+          .next_m = room_m,
+          .find_m = room_m,
+          .joined = are_joined(mesh, leaf, other),
+          .inside = mesh.block[leaf] == mesh.block[other] && mesh.block[leaf] != kNoBlock};
+}
+
 void find_groups(const engine::Context& context, const ContactMesh& mesh, const SweepTree& tree,
                  float reach_m, float gap_m, std::vector<PairTask>& tasks) {
   engine::parallel_for(context, tasks.size(), 1, [&](std::size_t task, std::size_t) {
@@ -137,20 +136,24 @@ void find_groups(const engine::Context& context, const ContactMesh& mesh, const 
 }
 
 void find_pairs(const ContactMesh& mesh, const PairSearch& search, PairGroup& group, PairTask& task) {
+  const auto [leaf, other] = group.leaf;
+  if (group.joined) {
+    const float turn_m =
+        std::min(mesh.width_m[leaf], mesh.width_m[other]) * turn_left(mesh, leaf, other, search.at);
+    if (turn_m > search.step_m) return clear_pairs(turn_m, group, task);
+  }
+  const FaceBoxes boxes(mesh, search.at, leaf, other);
+  const float room_m = group.joined ? 0.0f : boxes.distance() - search.gap_m;
+  if (room_m > search.slack_m) return clear_pairs(room_m, group, task);
   task.used -= group.end - group.begin;
   group.begin = static_cast<std::uint32_t>(task.pairs.size());
-  const float turn_m = kTurnOfWidth * std::min(mesh.width_m[group.leaf[0]], mesh.width_m[group.leaf[1]]);
-  const bool flat =
-      group.joined && turn_m > search.step_m && are_flat(mesh, group.leaf[0], group.leaf[1], search.at);
-  if (!flat) {
-    LeafPair leaves{mesh, search, search.gap_m + search.slack_m, task};
-    for_each_near_face(mesh, search.at, group.leaf[0], group.leaf[1], leaves.reach_m,
-                       [&](std::uint32_t a, std::uint32_t b) { leaves.visit(mesh.faces[a], mesh.faces[b]); });
-  }
+  LeafPair leaves{mesh, search, search.gap_m + search.slack_m, task};
+  boxes.for_each_near(leaves.reach_m,
+                      [&](std::uint32_t a, std::uint32_t b) { leaves.visit(mesh.faces[a], mesh.faces[b]); });
   group.end = static_cast<std::uint32_t>(task.pairs.size());
   task.used += group.end - group.begin;
   for (std::uint32_t k = group.begin; k < group.end; ++k) task.pairs[k].until_m = group.travel_m;
-  group.find_m = group.travel_m + (flat ? std::min(turn_m, search.slack_m) : search.slack_m);
+  group.find_m = group.travel_m + search.slack_m;
   group.next_m = group.begin == group.end ? group.find_m : group.travel_m;
 }
 

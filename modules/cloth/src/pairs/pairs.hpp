@@ -31,6 +31,7 @@ struct PairGroup {
   std::uint32_t leaf[2];
   std::uint32_t begin = 0, end = 0;  ///< its range in PairTask::pairs
   float travel_m = 0.0f;  ///< bounds how far one leaf's parts moved against the other's since it was listed
+  float step_m = 0.0f;    ///< the same in this substep, once find_crossing() looked at it
   float next_m = 0.0f;    ///< travel up to which none of its pairs is nearer than its gap
   float find_m = 0.0f;    ///< travel up to which it has no other pairs that may be
   bool joined = false;    ///< are_joined()
@@ -73,6 +74,9 @@ struct PairTask {
 /// The tasks of a garment.
 std::vector<PairTask> make_pair_tasks(const ContactMesh& mesh);
 
+/// A group of two leaves that is listed for the first time, and that are `room_m` farther apart than the gap.
+PairGroup new_group(const ContactMesh& mesh, std::size_t leaf, std::size_t other, float room_m);
+
 /// Lists the groups of all leaves that come nearer than `reach_m` on the sweeps of the tree. They have no
 /// pairs yet, and need none until they moved by their distance, less the gap; groups that were listed before
 /// keep theirs. The same for any number of workers.
@@ -90,7 +94,8 @@ struct PairSearch {
 /// Finds the pairs of a group that may be nearer than the gap before its leaves have moved by the slack.
 void find_pairs(const ContactMesh& mesh, const PairSearch& search, PairGroup& group, PairTask& task);
 
-/// Drops the pairs of a group with leaves that are `room_m` farther apart than the gap.
+/// Drops the pairs of a group with leaves that may move by `room_m` against each other until any is as near
+/// as the gap.
 void clear_pairs(float room_m, PairGroup& group, PairTask& task);
 
 /// Removes pairs that are no longer used, where these are many. Positions of pairs in the list change.

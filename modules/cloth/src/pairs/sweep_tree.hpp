@@ -34,6 +34,14 @@ SweepTree make_sweep_tree(const ContactMesh& mesh);
 void refit(const engine::Context& context, const ContactMesh& mesh, std::span<const Point> at,
            std::span<const Point> move, SweepTree& tree);
 
+/// Fits the boxes of one leaf anew, and widens all that hold it. The weight of a position is how far around
+/// its path the particle may be, meters. O(log #leaves).
+void refit_leaf(const ContactMesh& mesh, std::size_t leaf, std::span<const Point> at,
+                std::span<const Point> move, SweepTree& tree);
+
+/// A sweep of nothing.
+Sweep no_sweep();
+
 /// Widens a sweep by another one.
 inline void add(const Sweep& more, Sweep& all) {
   all.low = min(all.low, more.low), all.high = max(all.high, more.high);

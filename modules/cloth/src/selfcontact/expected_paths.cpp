@@ -17,21 +17,10 @@ constexpr float kSmoothing = 0.25f;
 // rest halves with every few substeps, and floats that have become subnormal take a hundred times as long.
 constexpr float kNoDrift2 = 1e-20f;
 
-// Where the last search expects particles to be by now, and how far from there they may be.
-struct Expectation {
-  const SelfContact& self;
-  float share, most2;
-
-  Expectation(float since_s, float most_m, const SelfContact& s)
-      : self(s), share(std::min(1.0f, since_s / s.ahead_s)), most2(most_m * most_m) {}
-
-  bool holds(std::span<const Point> at, std::size_t i) const {
-    const Float4 off = xyz(load(at[i]) - load(self.found[i]) - share * load(self.ahead[i]));
-    return dot(off, off) <= most2;
-  }
-};
-
 }  // namespace
+
+Expectation::Expectation(float since_s, float most, const SelfContact& s)
+    : self(s), share(std::min(1.0f, since_s / s.ahead_s)), most_m(most) {}
 
 bool strays(const engine::Context& context, std::span<const Point> at, float since_s, float most_m,
             const SelfContact& s) {
@@ -61,7 +50,7 @@ void look_ahead(const engine::Context& context, const SelfSubstep& substep, std:
     for (std::size_t i = begin; i < end; ++i) {
       const Float4 path = xyz(load(at[i]) - load(s.before[i])), expected = xyz(s.ahead_s * load(s.drift[i])),
                    off = path - share * expected;
-      s.found[i] = s.before[i];
+      s.found[i] = s.before[i], s.found[i].weight = 0.0f;
       const float kept = std::min(1.0f, most_m / std::sqrt(dot(off, off) + kTinyLength2));
       store(s.ahead[i], expected + (1.0f - kept) / share * off);
     }

@@ -5,6 +5,26 @@
 
 namespace bodice::inline v0_1::cloth {
 
+/// Where the last search expects particles to be by now, and how far from there they may be.
+struct Expectation {
+  const SelfContact& self;
+  float share, most_m;
+
+  /// `since_s` after the search, with all particles no farther than `most_m` and what each is allowed beyond
+  /// that.
+  Expectation(float since_s, float most_m, const SelfContact& self);
+
+  /// How far particle i at `at` is from there, squared, square meters.
+  float off2(std::span<const Point> at, std::size_t i) const {
+    const Float4 off = xyz(load(at[i]) - load(self.found[i]) - share * load(self.ahead[i]));
+    return dot(off, off);
+  }
+  bool holds(std::span<const Point> at, std::size_t i) const {
+    const float allowed_m = most_m + self.found[i].weight;
+    return off2(at, i) <= allowed_m * allowed_m;
+  }
+};
+
 /// Whether a particle at `at` left its expected path by more than `most_m`, `since_s` after the search.
 bool strays(const engine::Context& context, std::span<const Point> at, float since_s, float most_m,
             const SelfContact& self);

@@ -51,6 +51,13 @@ constexpr int kGuardings = 4;
 // fifth more skin shows between coarse triangles, with a half more layers cross.
 constexpr float kYieldedShare = 0.3f;
 
+// One worker adds travel to the groups of so many tasks, which takes about as long as to begin a task of the
+// engine.
+constexpr std::size_t kTasksTogether = 16;
+
+// All groups are listed anew in a frame that begins with more than so many of strayed particles a leaf.
+constexpr std::size_t kMostListedALeaf = 1;
+
 // After so many substeps of a frame in which layers crossed all the same, cloth is crushed. In the rest of
 // the frame it yields no more, because that parts nothing and takes a quarter of the time.
 constexpr int kFailedYields = 2;
@@ -62,17 +69,19 @@ void search(const engine::Context& context, SelfContact& s) {
     find_tangles(context, s.mesh, s.tree, s.found, s.tasks, s.tangles);
     loosen(s.mesh, s.tangles, s.loose);
   }
-  s.searched = s.sided = true;
+  s.searched = s.swept = s.sided = true;
   find_groups(context, s.mesh, s.tree, s.gap_m + s.spare_m, s.gap_m, s.tasks);
   s.moved_leaves.indexed = false;
+  s.strayed.listed = 0;
   ++s.report.searches;
 }
 
 // Searches unless the groups of the last search still do for particles at `at`.
 void keep_groups(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,
                  float used, SelfContact& s) {
-  const float most_m = used * s.spare_m;
-  if (s.searched && !strays(context, at, s.since_s + substep.length_s, most_m, s)) return;
+  const float most_m = used * s.spare_m, since_s = s.since_s + substep.length_s;
+  if (s.searched && !strays(context, at, since_s, most_m, s)) return;
+  if (s.searched && list_strayed(at, since_s, most_m, s)) return;
   look_ahead(context, substep, at, kOnPath * most_m, s);
   search(context, s);
 }
@@ -219,6 +228,7 @@ SelfContact make_self_contact(const geometry::TriMesh& mesh, const Particles& p,
   s.loose = make_loose(p.count());
   s.moves.resize(s.mesh.leaves());
   s.moved_leaves = make_moved_leaves(s.mesh);
+  s.strayed = make_strayed_leaves(p.count(), s.mesh);
   s.moved.reserve(p.count());
   for (auto* points : {&s.rest, &s.before, &s.now, &s.found, &s.ahead, &s.drift}) points->resize(p.count());
   for (std::size_t i = 0; i < p.count(); ++i) s.rest[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
@@ -235,11 +245,14 @@ void begin_self_contact(const engine::Context& context, const Particles& p, Self
   s.report = {};
   s.failed_yields = 0;
   if (s.origin != p.origin) forget_pairs(s);
+  // Groups of particles that strayed once would be kept for as long as none strays again.
+  if (s.strayed.listed > kMostListedALeaf * s.mesh.leaves()) s.searched = false;
   s.origin = p.origin;
   copy_points(context, p, s.before);
   if (s.tangles.empty()) return;
   // Loose particles may have passed many triangles of others since the frame before.
   refit(context, s.mesh, s.before, {}, s.tree);
+  s.swept = false;
   find_tangles(context, s.mesh, s.tree, s.before, s.tasks, s.tangles);
   loosen(s.mesh, s.tangles, s.loose);
 }
@@ -269,9 +282,10 @@ void hold_apart(const engine::Context& context, const SelfSubstep& substep, cons
     take_points(substep.length_s, s.now, p);
   }
   if (add_pressed(s.mesh, s.tasks, s.now, s.tangles)) loosen(s.mesh, s.tangles, s.loose);
-  for (PairTask& task : s.tasks)
-    for (PairGroup& group : task.groups)
-      group.travel_m += relative_move(s.moves[group.leaf[0]], s.moves[group.leaf[1]]);
+  engine::parallel_for(context, s.tasks.size(), kTasksTogether, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t)
+      for (PairGroup& group : s.tasks[t].groups) group.travel_m += group.step_m;
+  });
   s.since_s += substep.length_s;
   follow_drift(context, substep.length_s, s);
   std::swap(s.before, s.now);

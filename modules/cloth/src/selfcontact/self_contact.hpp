@@ -20,6 +20,7 @@
 #include "selfcontact/contacts.hpp"
 #include "selfcontact/loose.hpp"
 #include "selfcontact/moved_leaves.hpp"
+#include "selfcontact/strayed_leaves.hpp"
 #include "selfcontact/zones.hpp"
 
 namespace bodice::inline v0_1::cloth {
@@ -32,19 +33,23 @@ struct SelfContact {
   ContactMesh mesh;
   SweepTree tree;
   std::vector<PairTask> tasks;
-  std::vector<Tangle> tangles;      ///< triangles that cross
-  Loose loose;                      ///< corners of these, which contact leaves alone
-  std::vector<Point> rest;          ///< #P: positions at rest, meters, in the particles' first frame
-  std::vector<Point> before, now;   ///< #P: positions when the substep began, and at its end
-  MovedLeaves moved_leaves;         ///< those with particles that moved since crossings were counted
-  std::vector<Index> moved;         ///< particles that were moved after contact with the body
-  std::vector<Point> found, ahead;  ///< #P: positions at the last search, and displacements expected then
-  std::vector<Point> drift;         ///< #P: smoothed velocities, meters a second
-  std::vector<LeafMove> moves;      ///< #leaves
+  std::vector<Tangle> tangles;     ///< triangles that cross
+  Loose loose;                     ///< corners of these, which contact leaves alone
+  std::vector<Point> rest;         ///< #P: positions at rest, meters, in the particles' first frame
+  std::vector<Point> before, now;  ///< #P: positions when the substep began, and at its end
+  MovedLeaves moved_leaves;        ///< those with particles that moved since crossings were counted
+  std::vector<Index> moved;        ///< particles that were moved after contact with the body
+  /// #P: positions at the last search, and displacements expected then. The weight of a position is how far
+  /// beyond what all are allowed the particle may be from its expected path, meters.
+  std::vector<Point> found, ahead;
+  StrayedLeaves strayed;
+  std::vector<Point> drift;     ///< #P: smoothed velocities, meters a second
+  std::vector<LeafMove> moves;  ///< #leaves
   Zones zones;
   float ahead_s = 0.0f, since_s = 0.0f;  ///< the time of these displacements; that since the search
   Vec3 origin = Vec3::Zero();            ///< that of the particles' frame at the last search
   bool searched = false;                 ///< whether there was a search that may still hold
+  bool swept = false;                    ///< whether the tree has the sweeps of that search
   bool sided = false;                    ///< whether it is known what crosses
   int failed_yields = 0;                 ///< substeps of this frame in which layers crossed all the same
   SelfContactReport report;              ///< of this frame

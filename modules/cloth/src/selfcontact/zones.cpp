@@ -77,7 +77,7 @@ const PairContact& known_contact(const ContactSource& source, const PairGroup& g
 
 void find_crossing_in(const ContactSource& source, const CrossingSearch& how, PairGroup& group,
                       PairTask& task) {
-  const float step_m = source.step_of(group);
+  const float step_m = group.step_m = source.step_of(group);
   keep_pairs(source, step_m, group, task);
   if (group.next_m > group.travel_m + step_m) return;
   if (!group.fresh)

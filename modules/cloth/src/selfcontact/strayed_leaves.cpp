@@ -1,0 +1,129 @@
+#include "selfcontact/strayed_leaves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "selfcontact/expected_paths.hpp"
+#include "selfcontact/self_contact.hpp"
+
+namespace bodice::inline v0_1::cloth {
+namespace {
+
+// All groups are searched anew where more than one particle of so many strayed.
+constexpr std::size_t kFewStrayed = 200;
+// The most spare distances that a particle may be beyond what all are allowed. Farther away, a path from
+// where it is now needs fewer groups.
+constexpr float kMostBeyond = 4.0f;
+// Groups for which there is room at first, a leaf.
+constexpr std::size_t kWantedALeaf = 2;
+
+// Lists the particles that strayed; returns whether these are few.
+bool find_strayed(const Expectation& expected, std::span<const Point> at, std::vector<Index>& particles) {
+  particles.clear();
+  for (Index i = 0; i < at.size(); ++i) {
+    if (expected.holds(at, i)) continue;
+    if (particles.size() * kFewStrayed >= at.size()) return false;
+    particles.push_back(i);
+  }
+  return true;
+}
+
+void find_leaves(const ContactMesh& mesh, StrayedLeaves& s) {
+  s.leaves.clear();
+  for (const Index i : s.particles)
+    for (const std::uint32_t face : mesh.star_of(i)) s.leaves.push_back(mesh.leaf_of[face]);
+  std::ranges::sort(s.leaves);
+  const auto repeated = std::ranges::unique(s.leaves);
+  s.leaves.erase(repeated.begin(), repeated.end());
+}
+
+bool comes_before(const PairGroup& group, const WantedGroup& wanted) {
+  return std::pair(group.leaf[0], group.leaf[1]) < std::pair(wanted.leaf, wanted.other);
+}
+
+bool is_listed(const PairTask& task, const WantedGroup& wanted) {
+  const auto at = std::ranges::partition_point(
+      task.groups, [&](const PairGroup& group) { return comes_before(group, wanted); });
+  return at != task.groups.end() && at->leaf[0] == wanted.leaf && at->leaf[1] == wanted.other;
+}
+
+// Lists the groups that the strayed leaves have not, by task, leaf and other leaf.
+void find_wanted(const SweepTree& tree, float reach_m, const std::vector<PairTask>& tasks, StrayedLeaves& s) {
+  s.wanted.clear();
+  for (const std::uint32_t own : s.leaves)
+    for_each_near_leaf(tree, tree.node[tree.width + own], 0, reach_m, [&](std::size_t near) {
+      const auto [leaf, other] = std::minmax({own, static_cast<std::uint32_t>(near)});
+      const auto task =
+          std::ranges::partition_point(tasks, [leaf](const PairTask& t) { return t.last_leaf <= leaf; });
+      const WantedGroup wanted = {static_cast<std::uint32_t>(task - tasks.begin()), leaf, other};
+      if (!is_listed(*task, wanted)) s.wanted.push_back(wanted);
+    });
+  std::ranges::sort(s.wanted);
+  const auto repeated = std::ranges::unique(s.wanted);
+  s.wanted.erase(repeated.begin(), repeated.end());
+}
+
+Sweep box_of(const ContactMesh& mesh, std::uint32_t leaf, std::span<const Point> at) {
+  Sweep box = no_sweep();
+  for (const Index i : mesh.particles_of(leaf)) {
+    const Float4 p = xyz(load(at[i]));
+    add({p, p, splat(0.0f), splat(0.0f)}, box);
+  }
+  return box;
+}
+
+// Adds groups to a task, in the order of all. Their distances are those when the substep began.
+void add_groups(std::span<const WantedGroup> wanted, const SelfContact& s, std::vector<PairGroup>& room,
+                PairTask& task) {
+  room.clear();
+  for (const WantedGroup& w : wanted) {
+    const float room_m =
+        distance(box_of(s.mesh, w.leaf, s.before), box_of(s.mesh, w.other, s.before)) - s.gap_m;
+    room.push_back(new_group(s.mesh, w.leaf, w.other, room_m));
+  }
+  task.groups_before.clear();
+  std::ranges::merge(
+      task.groups, room, std::back_inserter(task.groups_before), {},
+      [](const PairGroup& g) { return std::pair(g.leaf[0], g.leaf[1]); },
+      [](const PairGroup& g) { return std::pair(g.leaf[0], g.leaf[1]); });
+  std::swap(task.groups, task.groups_before);
+}
+
+}  // namespace
+
+StrayedLeaves make_strayed_leaves(std::size_t particles, const ContactMesh& mesh) {
+  StrayedLeaves s;
+  s.particles.reserve(particles / kFewStrayed + 1);
+  s.leaves.reserve(mesh.faces.size());
+  s.wanted.reserve(kWantedALeaf * mesh.leaves());
+  s.groups.reserve(kWantedALeaf * mesh.leaves());
+  return s;
+}
+
+bool list_strayed(std::span<const Point> at, float since_s, float most_m, SelfContact& self) {
+  StrayedLeaves& s = self.strayed;
+  const Expectation expected(since_s, most_m, self);
+  if (!self.swept || !find_strayed(expected, at, s.particles)) return false;
+  // They may soon be as far again, so that each is allowed whole spare distances.
+  for (const Index i : s.particles) {
+    const float beyond_m = std::sqrt(expected.off2(at, i)) - most_m;
+    if (!(beyond_m <= kMostBeyond * self.spare_m)) return false;
+    self.found[i].weight = self.spare_m * std::ceil(beyond_m / self.spare_m);
+  }
+  find_leaves(self.mesh, s);
+  for (const std::uint32_t leaf : s.leaves) refit_leaf(self.mesh, leaf, self.found, self.ahead, self.tree);
+  find_wanted(self.tree, self.gap_m + self.spare_m, self.tasks, s);
+  for (auto first = s.wanted.begin(); first != s.wanted.end();) {
+    const auto last =
+        std::find_if(first, s.wanted.end(), [&](const WantedGroup& w) { return w.task != first->task; });
+    add_groups({first, last}, self, s.groups, self.tasks[first->task]);
+    first = last;
+  }
+  if (!s.wanted.empty()) self.moved_leaves.indexed = false;
+  s.listed += s.wanted.size();
+  return true;
+}
+
+}  // namespace bodice::cloth

@@ -1,0 +1,41 @@
+// Leaves with particles that strayed from their expected paths. Their groups are listed anew, while all
+// others are kept: where a body pulls at a garment, a few particles of ten thousand stray in each substep.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/particles.hpp"
+#include "pairs/pairs.hpp"
+
+namespace bodice::inline v0_1::cloth {
+
+struct SelfContact;
+
+/// A group that is to be listed: its leaves, the lower one first.
+struct WantedGroup {
+  std::uint32_t task = 0, leaf = 0, other = 0;
+
+  auto operator<=>(const WantedGroup&) const = default;
+};
+
+/// Leaves that strayed, and what they need.
+struct StrayedLeaves {
+  std::vector<Index> particles;
+  std::vector<std::uint32_t> leaves;
+  std::vector<WantedGroup> wanted;
+  std::vector<PairGroup> groups;  ///< room for those of one task
+  std::size_t listed = 0;         ///< groups that were listed since the last search
+};
+
+/// Room for a garment, so that frames allocate nothing.
+StrayedLeaves make_strayed_leaves(std::size_t particles, const ContactMesh& mesh);
+
+/// Lists the further groups of leaves with particles that at `at` are farther from their expected paths than
+/// `most_m`, and allows these particles to be as far from there. Returns false, with nothing listed, where so
+/// many strayed that all groups should be searched anew, or where the tree does not have the sweeps of the
+/// last search. O(#P), and O(log #leaves) a leaf that strayed and a group that it may be near.
+bool list_strayed(std::span<const Point> at, float since_s, float most_m, SelfContact& self);
+
+}  // namespace bodice::cloth

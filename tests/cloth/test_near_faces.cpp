@@ -1,0 +1,70 @@
+// Quick bounds on how near leaves of triangles are, against plain loops.
+#include <doctest/doctest.h>
+
+#include <numbers>
+#include <random>
+
+#include "layer_fixtures.hpp"
+#include "pairs/face_pair.hpp"
+#include "pairs/near_faces.hpp"
+
+using namespace bodice;
+using namespace bodice_test;
+
+namespace {
+
+std::vector<cloth::Point> points_of(const std::vector<Vec3>& positions) {
+  std::vector<cloth::Point> at;
+  for (const Vec3& p : positions)
+    at.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), 0.0f});
+  return at;
+}
+
+/// A strip of 2 x 4 quads. Its second half is turned about the line between the halves.
+TriMesh folded_strip(double angle) {
+  return surface(2, 4, false, [&](double u, double v) {
+    const double out = std::abs(v - 0.5);
+    return v < 0.5 ? Vec3(u, 0, -out) : Vec3(u, out * std::sin(angle), out * std::cos(angle));
+  });
+}
+
+Eigen::AlignedBox3d box_of(const cloth::Face& face, std::span<const cloth::Point> at) {
+  Eigen::AlignedBox3d box;
+  for (const Index i : face.particle) box.extend(Eigen::Vector3f(at[i].x, at[i].y, at[i].z).cast<double>());
+  return box;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "near faces: a fold may turn until its normals are 75 degrees from their mean, and is not flat from 60 "
+    "on") {
+  for (const double degrees : {0.0, 20.0, 60.0, 90.0, 115.0, 119.0, 121.0, 150.0, 170.0}) {
+    CAPTURE(degrees);
+    const double angle = degrees * std::numbers::pi / 180.0;
+    const TriMesh mesh = folded_strip(angle);
+    const cloth::ContactMesh leaves = cloth::make_contact_mesh(mesh);
+    REQUIRE(leaves.leaves() == 2);
+    const float left = cloth::turn_left(leaves, 0, 1, points_of(mesh.positions));
+    const double wanted = degrees > 120.0 ? 0.0 : std::sin((75.0 - degrees / 2) * std::numbers::pi / 180.0);
+    CHECK(double{left} == doctest::Approx(wanted).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("near faces: the distance of two leaves' boxes is that of the nearest two triangles' boxes") {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal(0.0, 0.1);
+  for (int round = 0; round < 200; ++round) {
+    TriMesh mesh = surface(8, 8, false, [](double u, double v) { return Vec3(u, 0, v); });
+    for (Vec3& p : mesh.positions) p += Vec3(normal(random), 3 * normal(random), normal(random));
+    const cloth::ContactMesh leaves = cloth::make_contact_mesh(mesh);
+    const std::vector<cloth::Point> at = points_of(mesh.positions);
+    const std::size_t a = round % leaves.leaves(),
+                      b = (a + 1 + round / 7 % (leaves.leaves() - 1)) % leaves.leaves();
+    double least = INFINITY;
+    for (const cloth::Face& f : leaves.faces_of(a))
+      for (const cloth::Face& g : leaves.faces_of(b))
+        least = std::min(least, box_of(f, at).exteriorDistance(box_of(g, at)));
+    CHECK(double{cloth::FaceBoxes(leaves, at, a, b).distance()} == doctest::Approx(least).epsilon(1e-5));
+  }
+}

@@ -1,0 +1,124 @@
+// Groups of leaves with particles that left their expected paths.
+#include <doctest/doctest.h>
+
+#include <set>
+
+#include "layer_fixtures.hpp"
+#include "selfcontact/self_contact.hpp"
+#include "selfcontact/strayed_leaves.hpp"
+
+using namespace bodice;
+using namespace bodice_test;
+
+namespace {
+
+constexpr int kCellsASide = 40;
+constexpr double kCell_m = 10e-3, kLayerGap_m = 3e-3, kBetween_m = 30e-3;
+constexpr float kSubstep_s = 1.0f / 480.0f;
+
+using LeafPair = std::pair<std::uint32_t, std::uint32_t>;
+
+/// Two sheets over each other at rest, after a search for pairs.
+struct TwoSheets {
+  TriMesh mesh;
+  cloth::Particles particles;
+  std::vector<std::uint8_t> touching;
+  cloth::SelfContact self;
+
+  TwoSheets() {
+    const double side_m = kCellsASide * kCell_m;
+    for (const double height_m : {0.0, kBetween_m})
+      append(surface(kCellsASide, kCellsASide, false,
+                     [&](double u, double v) { return Vec3(u * side_m, height_m, v * side_m); }),
+             mesh);
+    particles = cloth::make_particles(mesh, 0.1, std::vector<bool>(mesh.positions.size(), false));
+    for (std::size_t i = 0; i < particles.count(); ++i)
+      particles.point[i] = {particles.x[i], particles.y[i], particles.z[i], particles.inverse_mass[i]};
+    touching.assign(particles.count(), 0);
+    self = cloth::make_self_contact(mesh, particles, kLayerGap_m, kCell_m);
+    cloth::begin_self_contact({}, particles, self);
+    cloth::push_apart({}, {.length_s = kSubstep_s, .frame_s = 8 * kSubstep_s, .touching = touching}, self,
+                      particles);
+  }
+
+  /// The particle of the lower sheet in this row and column.
+  Index at(int row, int column) const { return static_cast<Index>(row * (kCellsASide + 1) + column); }
+  /// Lifts a particle of the lower sheet in this substep.
+  void lift(Index i, double by_m) { self.now[i].y += static_cast<float>(by_m); }
+  /// Lists groups of what strayed by more than half of the spare distance.
+  bool list() { return cloth::list_strayed(self.now, kSubstep_s, 0.499f * self.spare_m, self); }
+
+  std::set<LeafPair> listed() const {
+    std::set<LeafPair> all;
+    for (const cloth::PairTask& task : self.tasks)
+      for (const cloth::PairGroup& group : task.groups) all.emplace(group.leaf[0], group.leaf[1]);
+    return all;
+  }
+  /// Two leaves with particles that are nearer to each other than the gap, by comparing all with all.
+  std::set<LeafPair> near() const {
+    std::set<LeafPair> all;
+    for (std::uint32_t a = 0; a < self.mesh.leaves(); ++a)
+      for (std::uint32_t b = a; b < self.mesh.leaves(); ++b)
+        if (touch(a, b)) all.emplace(a, b);
+    return all;
+  }
+
+ private:
+  bool touch(std::uint32_t a, std::uint32_t b) const {
+    for (const Index i : self.mesh.particles_of(a))
+      for (const Index j : self.mesh.particles_of(b)) {
+        const cloth::Point &p = self.now[i], &q = self.now[j];
+        if (std::hypot(p.x - q.x, p.y - q.y, p.z - q.z) < static_cast<float>(kLayerGap_m)) return true;
+      }
+    return false;
+  }
+};
+
+}  // namespace
+
+TEST_CASE(
+    "strayed leaves: what strays to another layer has groups with it, and all others keep theirs in order") {
+  TwoSheets sheets;
+  const std::set<LeafPair> before = sheets.listed();
+  for (const auto& [row, column] : {std::pair(3, 5), std::pair(20, 20), std::pair(20, 21), std::pair(39, 0)})
+    sheets.lift(sheets.at(row, column), kBetween_m - 1e-3);
+  CHECK_FALSE(std::ranges::includes(before, sheets.near()));
+  REQUIRE(sheets.list());
+  const std::set<LeafPair> after = sheets.listed();
+  CHECK(std::ranges::includes(after, sheets.near()));
+  CHECK(std::ranges::includes(after, before));
+  CHECK(after.size() < before.size() + before.size() / 10);  // nothing near the others is listed
+  for (const cloth::PairTask& task : sheets.self.tasks)
+    for (std::size_t g = 1; g < task.groups.size(); ++g) {
+      const cloth::PairGroup &a = task.groups[g - 1], &b = task.groups[g];
+      CHECK(LeafPair(a.leaf[0], a.leaf[1]) < LeafPair(b.leaf[0], b.leaf[1]));
+    }
+}
+
+TEST_CASE("strayed leaves: a particle may stray as far once more, and farther is listed again") {
+  TwoSheets sheets;
+  const Index i = sheets.at(7, 7);
+  sheets.lift(i, 12e-3);
+  REQUIRE(sheets.list());
+  const std::size_t listed = sheets.self.strayed.listed;
+  REQUIRE(sheets.list());
+  CHECK(sheets.self.strayed.particles.empty());
+  CHECK(sheets.self.strayed.listed == listed);
+  sheets.lift(i, kBetween_m - 13e-3);
+  REQUIRE(sheets.list());
+  CHECK(sheets.self.strayed.particles == std::vector<Index>{i});
+  CHECK(std::ranges::includes(sheets.listed(), sheets.near()));
+}
+
+TEST_CASE("strayed leaves: many, one that is very far, and a tree of other sweeps need a whole search") {
+  TwoSheets many;
+  for (int column = 0; column <= kCellsASide; ++column) many.lift(many.at(9, column), 12e-3);
+  CHECK_FALSE(many.list());
+  TwoSheets far;
+  far.lift(far.at(2, 2), 1.0);
+  CHECK_FALSE(far.list());
+  TwoSheets other;
+  other.self.swept = false;
+  other.lift(other.at(2, 2), 12e-3);
+  CHECK_FALSE(other.list());
+}
