@@ -120,6 +120,25 @@ TEST_CASE("a noisy surface is thinned by its shape, and what stays has no noise"
   CHECK(off / static_cast<double>(thinned.mesh.positions.size()) < 0.25 * 0.8 * kNoise_m);
 }
 
+TEST_CASE("what is as thin as a finger keeps its width where its noise is taken out") {
+  constexpr double kNoise_m = 0.001, kRing_m = 0.2, kFinger_m = 0.008;
+  TriMesh noisy = bodice_test::torus(kRing_m, kFinger_m, 1000, 40);
+  const auto middle = [=](const Vec3& p) { return Vec3(kRing_m * Vec3(p.x(), 0.0, p.z()).normalized()); };
+  engine::Random random(5, 2);
+  for (Vec3& p : noisy.positions) p += kNoise_m * random.normal() * (p - middle(p)).normalized();
+  const ThinnedSurface thinned = thin_noisy({}, noisy, kNoise_m, {.edge_m = 0.002, .tolerance_m = 1e-4});
+  CHECK(thinned.mesh.positions.size() < noisy.positions.size() / 2);
+  double off = 0.0, wider = 0.0;
+  for (const Vec3& p : thinned.mesh.positions) {
+    const double width = (p - middle(p)).norm() - kFinger_m;
+    off += std::abs(width);
+    wider += width;
+  }
+  const auto count = static_cast<double>(thinned.mesh.positions.size());
+  CHECK(off / count < 0.3 * kNoise_m);
+  CHECK(std::abs(wider) / count < 0.05 * kNoise_m);
+}
+
 TEST_CASE("a thinned surface has the same bits for any number of workers") {
   const TriMesh fine = bodice_test::icosphere(kRadius_m, 6);
   const ThinnedSurface one = thin({}, fine, kThree);

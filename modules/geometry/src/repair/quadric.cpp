@@ -50,16 +50,21 @@ Quadric::Vector Quadric::heights() const {
   return Vector{{sum_.h, sum_.hu, sum_.hv, sum_.huu, sum_.huv, sum_.hvv}};
 }
 
+std::optional<Quadric::Value> Quadric::solve(const Sums& sums, double scale) {
+  const Eigen::LDLT<Matrix> factors(sums.squares);
+  if (factors.info() != Eigen::Success ||
+      !(factors.vectorD().minCoeff() > kLeastPivot * sums.squares(0, 0)))
+    return std::nullopt;
+  const Vector solution = factors.solve(sums.heights);
+  const double rest = sums.squared_heights - solution.dot(sums.heights);
+  return Value{.height = scale * solution[0],
+               .variance = factors.solve(Vector(Vector::Unit(0)))[0],
+               .residual = scale * scale * std::max(rest, 0.0) / (sums.count - 6)};
+}
+
 std::optional<Quadric::Value> Quadric::value() const {
   if (count_ < kFewest) return std::nullopt;
-  const Eigen::LDLT<Matrix> factors(squares());
-  if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > kLeastPivot * count_))
-    return std::nullopt;
-  const Vector solution = factors.solve(heights());
-  const double rest = sum_.hh - solution.dot(heights());
-  return Value{.height = scale_ * solution[0],
-               .variance = factors.solve(Vector(Vector::Unit(0)))[0],
-               .residual = scale_ * scale_ * std::max(rest, 0.0) / (count_ - 6)};
+  return solve({squares(), heights(), sum_.hh, count_}, scale_);
 }
 
 QuadricPatch Quadric::patch() const {

@@ -51,6 +51,16 @@ class Quadric {
 
   static constexpr int kFewest = 9;
 
+  /// Sums that a quadric is solved from, weighed by how many points each of `count` rows stands for.
+  struct Sums {
+    const Eigen::Matrix<double, 6, 6>& squares;
+    const Eigen::Matrix<double, 6, 1>& heights;
+    double squared_heights = 0.0;
+    int count = 0;
+  };
+  /// Nothing where the points lie on a conic.
+  static std::optional<Value> solve(const Sums& sums, double scale);
+
  private:
   /// Sums over the points of u^i v^j, and of the height times each term.
   struct Moments {

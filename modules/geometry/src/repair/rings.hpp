@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include <bodice/engine/parallel.hpp>
 #include <bodice/geometry/neighbors.hpp>
 
 namespace bodice::inline v0_1::geometry {
@@ -27,5 +28,16 @@ class Rings {
   std::vector<Index> found_;
   std::size_t last_ = 0;  ///< where the last ring begins
 };
+
+/// Calls visit(vertex, rings) for each vertex, on all workers.
+template <class Visit>
+void for_each_with_rings(const engine::Context& context, const Neighbors& neighbors, const Visit& visit) {
+  constexpr std::size_t kBlocks = 32;  // each has memory for all vertices
+  const std::size_t count = neighbors.vertices();
+  engine::parallel_for(context, count, count / kBlocks + 1, [&](std::size_t begin, std::size_t end) {
+    Rings rings(neighbors);
+    for (std::size_t v = begin; v < end; ++v) visit(static_cast<Index>(v), rings);
+  });
+}
 
 }  // namespace bodice::geometry

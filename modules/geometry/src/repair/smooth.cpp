@@ -4,13 +4,12 @@
 // by variance and size)
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <span>
 
-#include <bodice/engine/parallel.hpp>
 #include <bodice/geometry/noise.hpp>
 
+#include "repair/agreement.hpp"
 #include "repair/quadric.hpp"
 #include "repair/rings.hpp"
 #include "repair/smooth_normals.hpp"
@@ -18,30 +17,8 @@
 namespace bodice::inline v0_1::geometry {
 namespace {
 
-/// No ring is farther than this fraction of the longest side, 10 cm of a person.
-constexpr double kFarthest = 0.06;
-/// A vertex that is as certain as this fraction of the longest side, .2 mm of a person, needs no more rings.
-constexpr double kCertain = 0.00012;
-/// Each fit gives a range of this many of its standard deviations; the ranges of fits that agree meet.
-constexpr double kAgree = 1.7;
-/// A quadric follows its points where these deviate by less than this, in variances of the noise, and by less
-/// than so many standard deviations of that estimate.
-constexpr double kFollows = 1.1, kFollowsBy = 2.0;
 /// Quadrics with normals farther off a vertex' normal than this cosine do not count for it.
 constexpr double kAlong = 0.7;
-/// Blocks of vertices: each has memory for all vertices.
-constexpr std::size_t kBlocks = 32;
-
-/// The range that a height lies in, as the fits so far have it.
-struct HeightRange {
-  double low = -std::numeric_limits<double>::infinity(), high = -low;
-  /// Narrows it by another fit; false where the two do not meet.
-  bool meet(double value, double deviation) {
-    low = std::max(low, value - kAgree * deviation);
-    high = std::min(high, value + kAgree * deviation);
-    return low <= high;
-  }
-};
 
 /// The widest quadric around a vertex that its points follow.
 struct Widest {
@@ -55,16 +32,13 @@ struct Widest {
 class Smoother {
  public:
   Smoother(const TriMesh& noisy, std::span<const Vec3> normals, double noise)
-      : noisy_(noisy),
-        normals_(normals),
-        noise_(noise),
-        longest_(bounding_box(noisy.positions).size().maxCoeff()) {}
+      : noisy_(noisy), normals_(normals), agreement_(noisy.positions, noise) {}
 
   std::optional<Widest> widest(Rings& rings, Index vertex) const {
     std::optional<Widest> best;
     if (!(normals_[vertex].squaredNorm() > 0.5)) return best;
     const Vec3& origin = noisy_.positions[vertex];
-    const double farthest = std::max(kFarthest * longest_, 4.0 * noise_);
+    const double farthest = agreement_.farthest();
     Quadric quadric(origin, normals_[vertex], farthest);
     quadric.add({&vertex, 1}, noisy_.positions);
     HeightRange range;
@@ -74,10 +48,10 @@ class Smoother {
       if (ring.empty() || !add(ring, origin, farthest, quadric)) return best;
       const auto fit = quadric.value();
       if (!fit) continue;
-      const double deviation = noise_ * std::sqrt(fit->variance);
-      if (!follows(*fit, quadric.count()) || !range.meet(fit->height, deviation)) return best;
+      if (!agreement_.follows(*fit, quadric.count()) || !range.meet(fit->height, agreement_.deviation(*fit)))
+        return best;
       best = {quadric, fit->height, fit->variance, count};
-      if (deviation < kCertain * longest_) return best;
+      if (agreement_.is_certain(*fit)) return best;
     }
   }
 
@@ -90,14 +64,9 @@ class Smoother {
     return sum < farthest * static_cast<double>(ring.size());
   }
 
-  bool follows(const Quadric::Value& fit, int count) const {
-    const double most = kFollows + kFollowsBy * std::sqrt(2.0 / (count - 6));
-    return fit.residual < most * noise_ * noise_;
-  }
-
   const TriMesh& noisy_;
   std::span<const Vec3> normals_;
-  double noise_, longest_;
+  Agreement agreement_;
 };
 
 /// What was found around a vertex; without a quadric, that it lies at height 0 as surely as it was measured.
@@ -155,32 +124,7 @@ class Consensus {
   double noise_;
 };
 
-/// Calls visit(i, rings) for numbers below `count`, on all workers.
-template <class Visit>
-void for_each_in_blocks(const engine::Context& context, std::size_t count, const Neighbors& neighbors,
-                        const Visit& visit) {
-  engine::parallel_for(context, count, count / kBlocks + 1, [&](std::size_t begin, std::size_t end) {
-    Rings rings(neighbors);
-    for (std::size_t i = begin; i < end; ++i) visit(i, rings);
-  });
-}
-
 }  // namespace
-
-std::vector<Vec3> without_noise(const engine::Context& context, const RoughSurface& surface, double noise,
-                                std::span<const Index> vertices) {
-  const TriMesh& mesh = surface.mesh;
-  const Neighbors& neighbors = surface.neighbors;
-  const std::vector<Vec3> normals = smooth_normals(context, neighbors, surface.normals);
-  const Smoother smoother(mesh, normals, noise);
-  std::vector<Vec3> smooth(vertices.size());
-  for_each_in_blocks(context, vertices.size(), neighbors, [&](std::size_t i, Rings& rings) {
-    const auto found = smoother.widest(rings, vertices[i]);
-    smooth[i] = mesh.positions[vertices[i]];
-    if (found) smooth[i] += found->height * normals[vertices[i]];
-  });
-  return smooth;
-}
 
 std::vector<Vec3> without_noise(const engine::Context& context, const RoughSurface& surface, double noise) {
   const TriMesh& mesh = surface.mesh;
@@ -188,15 +132,14 @@ std::vector<Vec3> without_noise(const engine::Context& context, const RoughSurfa
   const std::vector<Vec3> normals = smooth_normals(context, neighbors, surface.normals);
   const Smoother smoother(mesh, normals, noise);
   std::vector<Patch> patches(mesh.positions.size());
-  for_each_in_blocks(context, patches.size(), neighbors, [&](std::size_t v, Rings& rings) {
-    if (const auto found = smoother.widest(rings, static_cast<Index>(v)))
+  for_each_with_rings(context, neighbors, [&](Index v, Rings& rings) {
+    if (const auto found = smoother.widest(rings, v))
       patches[v] = {found->quadric.patch(), found->height, std::sqrt(found->variance), found->rings};
   });
   const Consensus consensus(mesh, normals, patches, noise);
   std::vector<Vec3> smooth = mesh.positions;
-  for_each_in_blocks(context, smooth.size(), neighbors, [&](std::size_t v, Rings& rings) {
-    if (normals[v].squaredNorm() > 0.5)
-      smooth[v] += consensus.height(rings, static_cast<Index>(v)) * normals[v];
+  for_each_with_rings(context, neighbors, [&](Index v, Rings& rings) {
+    if (normals[v].squaredNorm() > 0.5) smooth[v] += consensus.height(rings, v) * normals[v];
   });
   return smooth;
 }

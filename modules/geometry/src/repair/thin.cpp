@@ -7,6 +7,7 @@
 #include <bodice/engine/parallel.hpp>
 
 #include "repair/merging.hpp"
+#include "repair/smooth_groups.hpp"
 
 namespace bodice::inline v0_1::geometry {
 namespace {
@@ -95,7 +96,7 @@ ThinnedSurface thin_noisy(const engine::Context& context, const RoughSurface& su
                           ThinOptions options) {
   options.tolerance_m = std::max(options.tolerance_m, kNoiseLeft * noise);
   ThinnedSurface thinned = thin(context, {averaged(context, surface), surface.mesh.triangles}, options);
-  thinned.mesh.positions = without_noise(context, surface, noise, thinned.kept);
+  thinned.mesh.positions = smooth_groups(context, surface.mesh, thinned, noise);
   return thinned;
 }
 

@@ -33,8 +33,4 @@ double noise_of(const engine::Context& context, const RoughSurface& surface);
 /// a vertex, on all workers. Throws Canceled.
 std::vector<Vec3> without_noise(const engine::Context& context, const RoughSurface& surface, double noise);
 
-/// The same for some vertices of the mesh, in their order, each by its own quadric alone.
-std::vector<Vec3> without_noise(const engine::Context& context, const RoughSurface& surface, double noise,
-                                std::span<const Index> vertices);
-
 }  // namespace bodice::geometry
