@@ -14,6 +14,7 @@
 #include "options/validators.hpp"
 #include "output/body_files.hpp"
 #include "output/query_speed.hpp"
+#include "run/keep_memory.hpp"
 #include "run/prepared_poses.hpp"
 #include "run/run.hpp"
 
@@ -143,6 +144,7 @@ engine::Result<void> check_shape(const FitCommand& command) {
 }
 
 engine::Result<void> fit(const FitCommand& command) {
+  keep_freed_memory();
   const CommonOptions& o = command.common;
   Run run(o);
   if (auto ok = run.check_files({{"-o", command.output, {".json", ".bodice"}},

@@ -52,8 +52,7 @@ Quadric::Vector Quadric::heights() const {
 
 std::optional<Quadric::Value> Quadric::solve(const Sums& sums, double scale) {
   const Eigen::LDLT<Matrix> factors(sums.squares);
-  if (factors.info() != Eigen::Success ||
-      !(factors.vectorD().minCoeff() > kLeastPivot * sums.squares(0, 0)))
+  if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > kLeastPivot * sums.squares(0, 0)))
     return std::nullopt;
   const Vector solution = factors.solve(sums.heights);
   const double rest = sums.squared_heights - solution.dot(sums.heights);

@@ -32,7 +32,8 @@ Symmetric product_of(const Vec3& a, const Vec3& b) {
 }
 
 Symmetric square_of(const Vec3& p) {
-  return Symmetric{{p.x() * p.x(), p.y() * p.y(), p.z() * p.z(), p.x() * p.y(), p.x() * p.z(), p.y() * p.z()}};
+  return Symmetric{
+      {p.x() * p.x(), p.y() * p.y(), p.z() * p.z(), p.x() * p.y(), p.x() * p.z(), p.y() * p.z()}};
 }
 
 std::vector<Group> groups_of(const TriMesh& noisy, const ThinnedSurface& thinned) {
