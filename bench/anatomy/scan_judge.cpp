@@ -24,6 +24,9 @@ constexpr double kStature = 0.015, kLandmark = 0.03, kForeign = 0.03, kMissing =
 constexpr double kAbsurdStature = 0.2, kAbsurdForeign = 0.2;
 /// A point this far from the body's skin belongs to something else; hair lies nearer.
 constexpr double kElsewhere_m = 0.05;
+/// Skin with more of the body so far outside of it lies inside of the body, and no scanner sees it: made
+/// bodies overlap at armpits and between thighs.
+constexpr double kOutside_m = 0.0005;
 /// The landmarks that tests hold bars on; those of tailors are less certain.
 constexpr int kMainLandmarks = 13;
 
@@ -87,17 +90,21 @@ const ScanPerson& nearest_person(const Scan& scan, const Anatomy& anatomy) {
                            [&](const auto& a, const auto& b) { return sum(a) < sum(b); });
 }
 
-/// Mean distance of the proxy's surface to the clean body, by area. `to_skin`: from the truth's coordinates.
+/// Mean distance of the proxy's surface to what can be seen of the clean body, by area. `to_skin`: from the
+/// truth's coordinates.
 template <class ToSkin>
 std::optional<double> proxy_error(const bodice::tryon::SegmentedSkin& skin, const TriMesh& truth,
                                   ToSkin&& to_skin) {
   const auto fit = bodice::fitting::fit({}, bodice::tryon::labeled(skin), {.measure_accuracy = false});
   if (!fit) return std::nullopt;
+  const bodice::geometry::MeshDistance body({}, truth);
   constexpr std::size_t kEvery = 7;
   double sum = 0.0, all = 0.0;
   for (std::size_t t = 0; t < truth.triangles.size(); t += kEvery) {
     const Vec3 middle = (truth.corner(t, 0) + truth.corner(t, 1) + truth.corner(t, 2)) / 3.0;
-    const double area = area_vector(truth, t).norm();
+    const Vec3 across = area_vector(truth, t);
+    const double area = across.norm();
+    if (!(area > 0.0) || body.signed_distance(middle + kOutside_m / area * across) < 0.0) continue;
     sum += area * std::abs(bodice::proxy::proxy_distance(fit->proxy, to_skin(middle)).distance);
     all += area;
   }

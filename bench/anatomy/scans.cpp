@@ -86,11 +86,12 @@ struct Row {
 };
 
 void print_line(const std::string& name, std::uint64_t seed, const Judged& judged, double took_s) {
-  std::printf(
-      "  %-14s %3d %-13s stature %4.1f landmark %4.1f %-11s foreign %4.1f missing %4.1f %% %4.1f s  %s\n",
-      name.c_str(), static_cast<int>(seed), kOutcomeNames[judged.outcome], 100 * judged.stature,
-      100 * judged.landmark, judged.worst.c_str(), 100 * judged.foreign, 100 * judged.missing, took_s,
-      judged.text.c_str());
+  std::printf("  %-14s %3d %-13s stature %4.1f landmark %4.1f %-11s foreign %4.1f missing %4.1f %% %4.1f s  ",
+              name.c_str(), static_cast<int>(seed), kOutcomeNames[judged.outcome], 100 * judged.stature,
+              100 * judged.landmark, judged.worst.c_str(), 100 * judged.foreign, 100 * judged.missing,
+              took_s);
+  if (judged.proxy_m) std::printf("proxy %.2f mm  ", 1e3 * *judged.proxy_m);
+  std::printf("%s\n", judged.text.c_str());
   std::fflush(stdout);
 }
 
