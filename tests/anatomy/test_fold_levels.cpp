@@ -69,6 +69,42 @@ TEST_CASE("a fold that a web hides is in doubt: sooner on a skin that was cut or
   }
 }
 
+TEST_CASE("armpits of a skin as given are in doubt sooner where both lie low and look unlike folds") {
+  struct Case {
+    double left, right, confidence;  // how far below where they are expected; of the stature
+    int doubted;
+  };
+  for (const Case& c : {Case{0.033, 0.026, 0.7, 2}, Case{0.033, 0.018, 0.7, 1}, Case{0.033, 0.018, 0.9, 0},
+                        Case{0.033, 0.008, 0.7, 0}, Case{0.028, 0.028, 0.7, 0}}) {
+    auto found = found_on(synth::Pose::kArmsDown);
+    for (int turn = 0; turn < 3; ++turn) {  // each armpit lets expect the other one a little
+      const auto below = anatomy::folds_below_expected(found.landmarks);
+      REQUIRE(below);
+      mark(found, LandmarkId::kArmpitL).position -= (c.left - (*below)[0]) * found.stature_m * found.up;
+      mark(found, LandmarkId::kArmpitR).position -= (c.right - (*below)[1]) * found.stature_m * found.up;
+    }
+    mark(found, LandmarkId::kArmpitL).confidence = mark(found, LandmarkId::kArmpitR).confidence =
+        c.confidence;
+    mark(found, LandmarkId::kPerineum).confidence = 0.9;
+    CAPTURE(c.left);
+    CAPTURE(c.right);
+    anatomy::doubt_folds({}, found);
+    CHECK(doubts(found) == c.doubted);
+  }
+}
+
+TEST_CASE("a neck that looks unlike one is in doubt where limbs were cut") {
+  for (const double confidence : {0.7, 0.8})
+    for (const bool cut : {false, true}) {
+      auto found = found_on(synth::Pose::kStride);
+      mark(found, LandmarkId::kNeck).confidence = confidence;
+      if (cut) found.warnings.push_back({"limbs-cut", "", "", ""});
+      const int before = doubts(found);
+      anatomy::doubt_folds({}, found);
+      CHECK(doubts(found) - before == (cut && confidence < 0.75 ? 1 : 0));
+    }
+}
+
 TEST_CASE(
     "a crotch that looks right on a closed skin is in doubt only where it is far off, or limbs were cut") {
   for (const double confidence : {0.5, 0.9})

@@ -92,6 +92,23 @@ TEST_CASE("two people in one skin, one of them taken for an arm, are refused") {
   CHECK(judged(scan->persons[0].body) == "");
 }
 
+TEST_CASE("hands and legs that stay welded are those of two bodies where most landmarks are in doubt") {
+  const auto body = synth::make_body({}, synth::BodyOptions{});
+  REQUIRE(body.ok());
+  auto found = anatomy::analyze({}, body->mesh, options(false));
+  REQUIRE(found.ok());
+  for (const char* code : {"legs-fused", "neck-uncertain", "neck-disagrees", "perineum-uncertain",
+                           "armpit-uncertain", "armpit-uncertain"})
+    found->warnings.push_back({code, "", "", ""});
+  auto one_less = *found;
+  one_less.warnings.push_back({"hand-fused-to-leg", "", "", ""});
+  CHECK(anatomy::contradictions(body->mesh, one_less).empty());
+  found->warnings.push_back({"crown-disagrees", "", "", ""});
+  CHECK(anatomy::contradictions(body->mesh, *found).empty());
+  found->warnings.push_back({"hand-fused-to-leg", "", "", ""});
+  CHECK(anatomy::contradictions(body->mesh, *found).size() == 1);
+}
+
 TEST_CASE("with force, what is analyzed but not human gives a warning with the reason") {
   const TriMesh box = bodice_test::box(Vec3::Constant(0.5), 12);
   const std::string why = judged(box);

@@ -1,6 +1,7 @@
 #include "check/fold_doubts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -18,6 +19,32 @@ constexpr double kAsGiven = 1.75;
 /// itself, from this confidence on.
 constexpr double kLooksRight = 0.85, kCrotchRoom = 1.5;
 
+/// Webs at both armpits of such a skin look unlike folds, by the least product of the three confidences, and
+/// lie too low alike: one of them by the first share of what is doubtful, the other by the second.
+constexpr double kFoldsFit = 0.6, kOneHidden = 1.3, kOtherHidden = 0.6;
+
+/// The confidence of a neck below which it is in doubt where limbs were cut: a web may reach the shoulder.
+constexpr double kNeckSeen = 0.75;
+
+const body::Landmark& at(const Anatomy& anatomy, body::LandmarkId id) {
+  return anatomy.landmarks[static_cast<std::size_t>(id)];
+}
+
+/// Whether webs may hide both armpits of a skin that is as it was given.
+bool hides_armpits(const Anatomy& anatomy, const std::array<double, 3>& below) {
+  double fit = 1.0;
+  for (const NamedFold& fold : kNamedFolds) fit *= at(anatomy, fold.id).confidence;
+  const auto [least, most] = std::minmax(below[0], below[1]);
+  return fit < kFoldsFit && most > kOneHidden * kArmpitOff && least > kOtherHidden * kArmpitOff;
+}
+
+void doubt_neck(Anatomy& anatomy) {
+  if (at(anatomy, body::LandmarkId::kNeck).confidence >= kNeckSeen) return;
+  doubt_fold({body::LandmarkId::kNeck, body::Part::kHead, "neck-uncertain", "the neck"},
+             "where limbs were cut off skin that has grown together, and looks unlike known ones.",
+             ", seen from all sides, shows it.", anatomy);
+}
+
 bool was_cut(const Anatomy& anatomy) {
   return std::ranges::any_of(anatomy.warnings,
                              [](const engine::Warning& w) { return w.code == "limbs-cut"; });
@@ -30,17 +57,19 @@ bool was_closed(const Options& options) {
 }  // namespace
 
 void doubt_folds(const Options& options, Anatomy& anatomy) {
+  const bool cut = was_cut(anatomy), changed = cut || was_closed(options);
+  if (cut) doubt_neck(anatomy);
   const auto below = folds_below_expected(anatomy.landmarks);
   if (!below) return;
-  const bool cut = was_cut(anatomy), changed = cut || was_closed(options);
+  const double armpit_room = changed || hides_armpits(anatomy, *below) ? 1.0 : kAsGiven;
   for (std::size_t i = 0; i < kNamedFolds.size(); ++i) {
     const NamedFold& fold = kNamedFolds[i];
     const bool crotch = fold.id == body::LandmarkId::kPerineum;
     const double off = (*below)[i];
     if (!changed && crotch) continue;
-    const double confidence = anatomy.landmarks[static_cast<std::size_t>(fold.id)].confidence;
+    const double confidence = at(anatomy, fold.id).confidence;
     const double crotch_room = !cut && confidence >= kLooksRight ? kCrotchRoom : 1.0;
-    const double most = crotch ? crotch_room * kPerineumOff : (changed ? 1.0 : kAsGiven) * kArmpitOff;
+    const double most = crotch ? crotch_room * kPerineumOff : armpit_room * kArmpitOff;
     if (std::abs(off) <= most) continue;
     doubt_fold(fold,
                std::to_string(std::lround(1e3 * std::abs(off))) + " thousandths of the stature " +

@@ -1,4 +1,4 @@
-// Doubts about armpits and crotch that lie where no body with such limbs has them.
+// Doubts about armpits and crotch that lie where no body with such limbs has them, and about the neck.
 #pragma once
 
 #include <bodice/anatomy/anatomy.hpp>
@@ -6,7 +6,8 @@
 namespace bodice::inline v0_1::anatomy {
 
 /// Warns of folds that lie far from where the other landmarks let expect them, and lowers their confidence.
-/// Skins that were neither cut nor closed are doubted where armpits are farther off still.
+/// Skins that were neither cut nor closed are doubted where armpits are farther off still, or both too low
+/// and unlike folds. Of skins that were cut, the neck is doubted as well, where it looks unlike one.
 void doubt_folds(const Options& options, Anatomy& anatomy);
 
 }  // namespace bodice::anatomy

@@ -29,7 +29,8 @@ constexpr Range kArea{0.36, 1.0};
 /// at least so many are in doubt.
 constexpr double kLargeArea = 0.90;
 constexpr int kDoubts = 4;
-/// The number of landmarks in doubt from which a mesh with extremities at unusual distances is no body.
+/// The number of landmarks in doubt from which a mesh with extremities at unusual distances, or with limbs
+/// that meet, is no body.
 constexpr int kTooManyDoubts = 6;
 constexpr double kTypicalArea = 0.63;
 // Shares of the skin's area: head .08 to .2, trunk .3 to .5, an arm .07 to .12, a leg .13 to .22.
@@ -74,9 +75,12 @@ bool warned_of(const Anatomy& anatomy, std::string_view code) {
                      [&](const engine::Warning& w) { return w.code == code; });
 }
 
-/// Arms and legs that both stay welded, with landmarks in doubt, are those of two bodies in one skin.
+/// Arms and legs that both stay welded, with landmarks in doubt, are those of two bodies in one skin. A hand
+/// may rest on a thigh of one body, which leaves fewer in doubt.
 bool stays_welded(const Anatomy& anatomy) {
-  return warned_of(anatomy, "limbs-fused") && warned_of(anatomy, "legs-fused") && doubts(anatomy) >= kDoubts;
+  if (!warned_of(anatomy, "legs-fused")) return false;
+  return (warned_of(anatomy, "limbs-fused") && doubts(anatomy) >= kDoubts) ||
+         (warned_of(anatomy, "hand-fused-to-leg") && doubts(anatomy) >= kTooManyDoubts);
 }
 
 void check_limbs(const Shares& shares, std::vector<std::string>& found) {
