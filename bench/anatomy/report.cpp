@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <iterator>
 #include <numeric>
@@ -176,6 +177,7 @@ void Report::add(const Case& c, const bodice::anatomy::Anatomy& a) {
   weigh_warnings(c, s, a, missed);
   if (s.agreement >= 0.0) agreement_.push_back(s.agreement);
   worst_swap_ = std::max(worst_swap_, s.swapped);
+  if (c.stature > 0.0) height_.push_back(std::abs(s.stature_ratio - 1.0));
   for (const auto& [name, error] : s.error) {
     Errors& e = errors_[without_side(name)];
     (c.rest ? e.rest : e.posed).push_back(error);
@@ -211,6 +213,9 @@ void Report::summary() const {
         100.0 * mean(agreement_), 100.0 * kMeanAgreement,
         100.0 * *std::min_element(agreement_.begin(), agreement_.end()), 100.0 * kLeastAgreement,
         100.0 * worst_swap_);
+  if (!height_.empty())
+    std::printf("height, %% off the true one: mean %.2f, worst %.2f\n", 100.0 * mean(height_),
+                100.0 * *std::max_element(height_.begin(), height_.end()));
   std::printf("landmarks, %% of the stature from the truth:\n");
   for (const auto& [name, e] : errors_) {
     std::printf("%-10s", name.c_str());

@@ -43,6 +43,7 @@ class Report {
   bool every_row_, every_landmark_;
   std::vector<double> agreement_;
   double worst_swap_ = 0.0;
+  std::vector<double> height_;            ///< how far each is off, as a fraction of the true one
   std::map<std::string, Errors> errors_;  ///< by landmark, left and right together
   std::vector<Claim> claims_;
   std::map<std::string, std::map<std::string, int>> misses_;  ///< by kind of body, by landmark

@@ -9,6 +9,7 @@
 
 #include "extremities/sides.hpp"
 #include "landmarks/find_landmarks.hpp"
+#include "landmarks/stature.hpp"
 
 namespace calibrate {
 namespace {
@@ -94,6 +95,11 @@ bodice::anatomy::CorrectionRecords Sample::records(const bodice::anatomy::TrialC
   (void)bodice::anatomy::find_landmarks({}, *skin_, *coordinates_, &records);
   records.trial = nullptr;
   return records;
+}
+
+bool Sample::stands() const {
+  const auto found = bodice::anatomy::find_landmarks({}, *skin_, *coordinates_);
+  return bodice::anatomy::standing_height(*skin_, *coordinates_, found.marks, stature_m_).has_value();
 }
 
 Vec3 Sample::joint(const std::string& name) const {

@@ -62,6 +62,8 @@ class Sample {
   Vec3 joint(const std::string& name) const;
   /// The true position of a joint of the common skeleton, where it is known.
   std::optional<Vec3> skeleton_joint(bodice::body::JointId id) const;
+  /// Whether it stands, so that its stature is measured and not estimated.
+  bool stands() const;
   /// What the corrections of its landmarks are computed from, with those on trial in place of the files'.
   bodice::anatomy::CorrectionRecords records(const bodice::anatomy::TrialCoefficients& trial) const;
 

@@ -25,8 +25,6 @@ constexpr std::array kRidges{1e-5, 1e-4, 1e-3};
 /// A first estimate that is so many times as far off as a correction may move lies somewhere else on the
 /// body.
 constexpr double kElsewhere = 2.0;
-/// Rounds in which rows count by what the round before left of their errors; it has settled by then.
-constexpr int kReweighted = 12;
 /// Errors below this count by their square, larger ones by their length; fractions of the body size. Where
 /// weights are many, means are small already, and few large errors matter more.
 constexpr double kSmallError = 0.002, kSmallWhereMany = 0.02;

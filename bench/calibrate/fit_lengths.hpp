@@ -5,8 +5,8 @@
 
 namespace calibrate {
 
-/// Least squares of the relative error of the stature by head to feet, foot to foot, hand to hand and head to
-/// hands.
+/// The least sum of errors of the stature by lengths along the skin, over bodies that do not stand. Each
+/// group of bodies counts alike, but for those of files.
 ordered_json fit_stature(const Samples& samples);
 
 /// The mean distances of adults, as fractions of the stature, and the deviations of the template's modes that

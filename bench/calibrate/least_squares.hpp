@@ -12,6 +12,8 @@ namespace calibrate {
 
 /// People are left out of a fit in this many parts, one after the other, to choose the ridge.
 inline constexpr std::size_t kFolds = 5;
+/// Rounds in which rows count by what the round before left of their errors; it has settled by then.
+inline constexpr int kReweighted = 12;
 
 /// Collects rows x . w = y and solves for w.
 class LeastSquares {

@@ -49,7 +49,7 @@ TEST_CASE("fifty random bodies in random poses: parts agree, sides are never swa
       CHECK(error < 0.06);
       far += error > 0.04;
     }
-    CHECK(found->stature_m == doctest::Approx(truth.stature_m).epsilon(0.09));
+    CHECK(found->stature_m == doctest::Approx(truth.stature_m).epsilon(0.06));
   }
   CHECK(sum / kSeeds > 0.965);
   CHECK(chest_sum / kSeeds > 0.9);

@@ -54,7 +54,7 @@ engine::Result<Anatomy> analyze_skin(const engine::Context& context, const Skin&
   const BodyCoordinates coordinates(context, skin, tips);
   const CheckedLandmarks landmarks = find_landmarks(context, skin, coordinates);
   if (const auto fused = fused_limbs_error(skin, coordinates, landmarks)) return *fused;
-  anatomy.stature_m = find_stature(skin, tips, landmarks.marks);
+  anatomy.stature_m = find_stature(skin, coordinates, landmarks.marks);
   anatomy.up = upwards(skin, landmarks.marks, coordinates.perineum());
   anatomy.landmarks = to_list(skin, landmarks.marks);
   anatomy_timer.stop();

@@ -27,7 +27,7 @@ struct Range {
 constexpr Range kArea{0.36, 1.0};
 /// A skin this large is that of a very heavy body, on which the landmarks agree, or of two bodies, on which
 /// at least so many are in doubt.
-constexpr double kLargeArea = 0.90;
+constexpr double kLargeArea = 0.93;
 constexpr int kDoubts = 4;
 /// The number of landmarks in doubt from which a mesh with extremities at unusual distances, or with limbs
 /// that meet, is no body.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <coefficients/stature.hpp>
 
@@ -12,19 +13,14 @@ using geometry::Vec3;
 
 /// A body stands when its toes are this level and its height is this near to the estimate; fractions of the
 /// stature.
-constexpr double kLevelToes = 0.04, kNearEstimate = 0.07;
+constexpr double kLevelToes = 0.04, kNearEstimate = 0.04;
 /// Noise of the skin makes paths along it longer, and the estimate larger. A body stands as well where the
 /// line along its middle is this straight.
 constexpr double kStraight = 0.95;
 
-/// The stature by the distances head to feet, foot to foot, hand to hand and head to hands.
-double estimate(const BodyExtremities& tips) {
-  const double head_hands = 0.5 * (static_cast<double>((*tips.from_head)[tips.hand[0]]) +
-                                   static_cast<double>((*tips.from_head)[tips.hand[1]]));
-  const auto& weight = coefficients::stature::kLengths;
-  return weight[0] * static_cast<double>(tips.head_to_feet) +
-         weight[1] * static_cast<double>(tips.feet_apart) +
-         weight[2] * static_cast<double>(tips.hands_apart) + weight[3] * head_hands;
+double estimate(const BodyCoordinates& coordinates) {
+  const auto lengths = stature_lengths(coordinates);
+  return std::inner_product(lengths.begin(), lengths.end(), std::begin(coefficients::stature::kLengths), 0.0);
 }
 
 /// The distance from crown to ankles by the sum of the straight pieces between the points from one to the
@@ -36,33 +32,55 @@ double straightness(const Stance& stance) {
   return length > 0.0 ? (stance.ankles - stance.crown).norm() / length : 0.0;
 }
 
-}  // namespace
-
-double stature_of(const Stance& stance, const std::vector<Vec3>& points, double estimate) {
+std::optional<double> height_of(const Stance& stance, const std::vector<Vec3>& points, double estimate) {
   const Vec3 axis = stance.crown - stance.knees;
-  if (!(axis.norm() > 0.0)) return estimate;
+  if (!(axis.norm() > 0.0)) return std::nullopt;
   const Vec3 up = axis.normalized();
   const double toes_differ = std::abs((stance.toes[0] - stance.toes[1]).dot(up));
   double lowest = std::numeric_limits<double>::infinity();
   for (const Vec3& p : points) lowest = std::min(lowest, (p - stance.crown).dot(up));
   const bool upright = std::abs(-lowest / estimate - 1.0) < kNearEstimate || straightness(stance) > kStraight;
-  const bool stands = toes_differ < kLevelToes * estimate && upright;
-  return stands ? -lowest : estimate;
+  if (!upright || toes_differ >= kLevelToes * estimate) return std::nullopt;
+  return -lowest;
 }
 
-double find_stature(const Skin& skin, const BodyExtremities& tips, const Landmarks& marks) {
+}  // namespace
+
+double stature_of(const Stance& stance, const std::vector<Vec3>& points, double estimate) {
+  return height_of(stance, points, estimate).value_or(estimate);
+}
+
+std::array<double, 6> stature_lengths(const BodyCoordinates& coordinates) {
+  const BodyExtremities& tips = coordinates.extremities();
+  const float head_to_hands = 0.5F * ((*tips.from_head)[tips.hand[0]] + (*tips.from_head)[tips.hand[1]]);
+  return {tips.head_to_feet,
+          tips.feet_apart,
+          tips.hands_apart,
+          head_to_hands,
+          coordinates.front_to_merge_m(),
+          coordinates.back_to_merge_m()};
+}
+
+std::optional<double> standing_height(const Skin& skin, const BodyCoordinates& coordinates,
+                                      const Landmarks& marks, double estimate) {
+  const BodyExtremities& tips = coordinates.extremities();
   const auto& p = skin.mesh.positions;
   std::vector<Vec3> own;
   for (std::size_t v = 0; v < p.size(); ++v)
     if (skin.component[v] == 0) own.push_back(p[v]);
   const auto middle = [&](LandmarkId left) { return Vec3(0.5 * (marks.at(left, 0) + marks.at(left, 1))); };
-  return stature_of({p[tips.head],
-                     marks.at(LandmarkId::kNeck),
-                     marks.at(LandmarkId::kPerineum),
-                     middle(LandmarkId::kKneeL),
-                     middle(LandmarkId::kAnkleL),
-                     {p[tips.foot[0]], p[tips.foot[1]]}},
-                    own, estimate(tips));
+  return height_of({p[tips.head],
+                    marks.at(LandmarkId::kNeck),
+                    marks.at(LandmarkId::kPerineum),
+                    middle(LandmarkId::kKneeL),
+                    middle(LandmarkId::kAnkleL),
+                    {p[tips.foot[0]], p[tips.foot[1]]}},
+                   own, estimate);
+}
+
+double find_stature(const Skin& skin, const BodyCoordinates& coordinates, const Landmarks& marks) {
+  const double estimated = estimate(coordinates);
+  return standing_height(skin, coordinates, marks, estimated).value_or(estimated);
 }
 
 }  // namespace bodice::anatomy
