@@ -18,10 +18,12 @@ namespace {
 using namespace bodice;
 
 constexpr double kStep_s = 1.0 / 60.0;
-constexpr double kEdge_m = 7.8e-3;  // of the skirt's triangles: 10,220 particles
-constexpr int kFramesBefore = 90;   // the ramp to the clip, and the first step
-constexpr int kFrames = 120;        // two steps
-constexpr double kParticles = 1e4;  // those of the bar
+// With triangles of this edge the skirt has 10,220 particles.
+constexpr double kEdge_m = 7.8e-3;
+// The ramp to the clip and the first step pass before frames are timed; then two steps are.
+constexpr int kFramesBefore = 90, kFrames = 120;
+// The bar is on a frame of so many particles.
+constexpr double kParticles = 1e4;
 constexpr double kMostFrame_ms = 16.0;
 
 /// What frames took, and what layers cost in them.

@@ -28,10 +28,10 @@ struct ClearanceCache {
 /// The cache for so many particles.
 ClearanceCache make_clearance_cache(std::size_t particles);
 
-/// Begins a frame. Without a body, or if it moves, every cluster may touch, because distances at the end of a
-/// motion bound nothing on its path. So it is for some frames after most clusters were found near. The
-/// cluster of a particle that travels farther than expected may touch as well. `touching` is #P: whether the
-/// body moved the particle in the substep before.
+/// Begins a frame. Without a body, or if it moves, every cluster may touch: beside a body that moves,
+/// resolve_moving() leaves out single particles. So it is for some frames after most clusters were found
+/// near. The cluster of a particle that travels farther than expected may touch as well. `touching` is #P:
+/// whether the body moved the particle in the substep before.
 void begin_clearance_frame(const engine::Context& context, const ContactFrame& frame,
                            std::span<const std::uint8_t> touching, Particles& particles,
                            ClearanceCache& clearance);

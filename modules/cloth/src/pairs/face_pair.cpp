@@ -82,7 +82,7 @@ float turn_left(const ContactMesh& mesh, std::size_t leaf, std::size_t other, st
   for (const Face& f : mesh.faces_of(leaf)) mean += normal[count++] = normal_of(f, at);
   if (other != leaf)
     for (const Face& f : mesh.faces_of(other)) mean += normal[count++] = normal_of(f, at);
-  float least2 = 1.0f;  // of the squares of the cosines
+  float least2 = 1.0f;  // the square of the least cosine
   for (std::size_t k = 0; k < count; ++k) {
     const float along = dot(normal[k], mean);
     if (!(along > 0.0f)) return 0.0f;

@@ -83,12 +83,9 @@ void list_groups(const ContactMesh& mesh, const SweepTree& tree, float reach_m, 
   for (std::size_t first = task.first_leaf; first < task.last_leaf; first += kLeavesTogether) {
     const std::size_t last = std::min(first + kLeavesTogether, task.last_leaf);
     for_each_near_leaf(tree, first, last, reach_m, task.near, [&](std::size_t leaf, std::size_t other) {
-      const std::pair<std::size_t, std::size_t> wanted(leaf, other);
-      const auto leaves = [](const PairGroup& g) {
-        return std::pair<std::size_t, std::size_t>(g.leaf[0], g.leaf[1]);
-      };
-      while (before != task.groups_before.end() && leaves(*before) < wanted) ++before;
-      const bool known = before != task.groups_before.end() && leaves(*before) == wanted;
+      const std::pair wanted(static_cast<std::uint32_t>(leaf), static_cast<std::uint32_t>(other));
+      while (before != task.groups_before.end() && leaves_of(*before) < wanted) ++before;
+      const bool known = before != task.groups_before.end() && leaves_of(*before) == wanted;
       task.groups.push_back(known ? *before
                                   : new_group(mesh, leaf, other, room_between(tree, leaf, other) - gap_m));
       task.groups.back().fresh = false;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <bodice/engine/context.hpp>
@@ -38,6 +39,11 @@ struct PairGroup {
   bool inside = false;    ///< whether all of its particles are in one block
   bool fresh = false;     ///< whether its pairs' contacts are those of this substep
 };
+
+/// What groups are in order of.
+inline std::pair<std::uint32_t, std::uint32_t> leaves_of(const PairGroup& group) {
+  return {group.leaf[0], group.leaf[1]};
+}
 
 /// A pair that is near in this substep.
 struct PairContact {

@@ -10,21 +10,17 @@ namespace {
 constexpr float kBeyondAll_m = 1e30f;
 constexpr std::size_t kFitsATask = 128;
 
+// A sweep of nothing.
+Sweep no_sweep() {
+  const Float4 far = {kBeyondAll_m, kBeyondAll_m, kBeyondAll_m, 0.0f};
+  return {far, -far, far, -far};
+}
+
 // A leaf of the tree without particles, which does not move.
 Sweep empty_leaf() {
   Sweep sweep = no_sweep();
   sweep.move_low = sweep.move_high = splat(0.0f);
   return sweep;
-}
-
-void fit_leaf(const ContactMesh& mesh, std::size_t leaf, std::span<const Point> at,
-              std::span<const Point> move, SweepTree& tree) {
-  Sweep all = no_sweep();
-  for (const Index i : mesh.particles_of(leaf)) {
-    const Float4 p = xyz(load(at[i])), m = move.empty() ? splat(0.0f) : xyz(load(move[i]));
-    add({p, p, m, m}, all);
-  }
-  tree.node[tree.width + leaf] = all;
 }
 
 }  // namespace
@@ -37,10 +33,22 @@ SweepTree make_sweep_tree(const ContactMesh& mesh) {
   return tree;
 }
 
-void refit(const engine::Context& context, const ContactMesh& mesh, std::span<const Point> at,
-           std::span<const Point> move, SweepTree& tree) {
+Sweep sweep_of(const ContactMesh& mesh, std::size_t leaf, const SweptPoints& points) {
+  Sweep all = no_sweep();
+  for (const Index i : mesh.particles_of(leaf)) {
+    const Float4 p = xyz(load(points.at[i]));
+    const Float4 move = points.move.empty() ? splat(0.0f) : xyz(load(points.move[i]));
+    const Float4 room = points.room_m.empty() ? splat(0.0f) : xyz(splat(points.room_m[i]));
+    add({p - room, p + room, move, move}, all);
+  }
+  return all;
+}
+
+void refit(const engine::Context& context, const ContactMesh& mesh, const SweptPoints& points,
+           SweepTree& tree) {
   engine::parallel_for(context, mesh.leaves(), kFitsATask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t leaf = begin; leaf < end; ++leaf) fit_leaf(mesh, leaf, at, move, tree);
+    for (std::size_t leaf = begin; leaf < end; ++leaf)
+      tree.node[tree.width + leaf] = sweep_of(mesh, leaf, points);
   });
   for (std::size_t k = tree.width; k-- > 1;) {
     tree.node[k] = tree.node[2 * k];
@@ -49,20 +57,9 @@ void refit(const engine::Context& context, const ContactMesh& mesh, std::span<co
   }
 }
 
-void refit_leaf(const ContactMesh& mesh, std::size_t leaf, std::span<const Point> at,
-                std::span<const Point> move, SweepTree& tree) {
-  Sweep all = no_sweep();
-  for (const Index i : mesh.particles_of(leaf)) {
-    const Float4 p = xyz(load(at[i])), around = xyz(splat(at[i].weight)), m = xyz(load(move[i]));
-    add({p - around, p + around, m, m}, all);
-  }
-  tree.node[tree.width + leaf] = all;
+void refit_leaf(const ContactMesh& mesh, std::size_t leaf, const SweptPoints& points, SweepTree& tree) {
+  const Sweep all = tree.node[tree.width + leaf] = sweep_of(mesh, leaf, points);
   for (std::size_t k = (tree.width + leaf) / 2; k > 0; k /= 2) add(all, tree.node[k]);
-}
-
-Sweep no_sweep() {
-  const Float4 far = {kBeyondAll_m, kBeyondAll_m, kBeyondAll_m, 0.0f};
-  return {far, -far, far, -far};
 }
 
 }  // namespace bodice::cloth

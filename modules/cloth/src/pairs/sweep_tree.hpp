@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <bodice/engine/context.hpp>
@@ -30,17 +31,22 @@ struct SweepTree {
 /// A hierarchy without boxes for these leaves.
 SweepTree make_sweep_tree(const ContactMesh& mesh);
 
-/// Fits the boxes to particles that move by `move` from `at`; without it, they stay. O(#triangles).
-void refit(const engine::Context& context, const ContactMesh& mesh, std::span<const Point> at,
-           std::span<const Point> move, SweepTree& tree);
+/// Particles on their paths; arrays of #P.
+struct SweptPoints {
+  std::span<const Point> at;      ///< where the paths begin
+  std::span<const Point> move;    ///< their displacements; empty: all stay
+  std::span<const float> room_m;  ///< how far around its path each may be; empty: nowhere but on it
+};
 
-/// Fits the boxes of one leaf anew, and widens all that hold it. The weight of a position is how far around
-/// its path the particle may be, meters. O(log #leaves).
-void refit_leaf(const ContactMesh& mesh, std::size_t leaf, std::span<const Point> at,
-                std::span<const Point> move, SweepTree& tree);
+/// The sweep of a leaf's particles.
+Sweep sweep_of(const ContactMesh& mesh, std::size_t leaf, const SweptPoints& points);
 
-/// A sweep of nothing.
-Sweep no_sweep();
+/// Fits all boxes. O(#triangles).
+void refit(const engine::Context& context, const ContactMesh& mesh, const SweptPoints& points,
+           SweepTree& tree);
+
+/// Fits the boxes of one leaf anew, and widens all that hold it. O(log #leaves).
+void refit_leaf(const ContactMesh& mesh, std::size_t leaf, const SweptPoints& points, SweepTree& tree);
 
 /// Widens a sweep by another one.
 inline void add(const Sweep& more, Sweep& all) {

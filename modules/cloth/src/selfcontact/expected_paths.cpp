@@ -50,7 +50,7 @@ void look_ahead(const engine::Context& context, const SelfSubstep& substep, std:
     for (std::size_t i = begin; i < end; ++i) {
       const Float4 path = xyz(load(at[i]) - load(s.before[i])), expected = xyz(s.ahead_s * load(s.drift[i])),
                    off = path - share * expected;
-      s.found[i] = s.before[i], s.found[i].weight = 0.0f;
+      s.found[i] = s.before[i], s.beyond_m[i] = 0.0f;
       const float kept = std::min(1.0f, most_m / std::sqrt(dot(off, off) + kTinyLength2));
       store(s.ahead[i], expected + (1.0f - kept) / share * off);
     }

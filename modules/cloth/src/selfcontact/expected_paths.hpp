@@ -20,7 +20,7 @@ struct Expectation {
     return dot(off, off);
   }
   bool holds(std::span<const Point> at, std::size_t i) const {
-    const float allowed_m = most_m + self.found[i].weight;
+    const float allowed_m = most_m + self.beyond_m[i];
     return off2(at, i) <= allowed_m * allowed_m;
   }
 };

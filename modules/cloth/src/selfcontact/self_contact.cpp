@@ -64,7 +64,7 @@ constexpr int kFailedYields = 2;
 
 // Lists the groups of particles on the paths that are expected.
 void search(const engine::Context& context, SelfContact& s) {
-  refit(context, s.mesh, s.found, s.ahead, s.tree);
+  refit(context, s.mesh, {s.found, s.ahead, {}}, s.tree);
   if (!s.sided) {
     find_tangles(context, s.mesh, s.tree, s.found, s.tasks, s.tangles);
     loosen(s.mesh, s.tangles, s.loose);
@@ -229,7 +229,7 @@ SelfContact make_self_contact(const geometry::TriMesh& mesh, const Particles& p,
   s.moves.resize(s.mesh.leaves());
   s.moved_leaves = make_moved_leaves(s.mesh);
   s.strayed = make_strayed_leaves(p.count(), s.mesh);
-  s.moved.reserve(p.count());
+  s.moved.reserve(p.count()), s.beyond_m.resize(p.count());
   for (auto* points : {&s.rest, &s.before, &s.now, &s.found, &s.ahead, &s.drift}) points->resize(p.count());
   for (std::size_t i = 0; i < p.count(); ++i) s.rest[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
   return s;
@@ -251,7 +251,7 @@ void begin_self_contact(const engine::Context& context, const Particles& p, Self
   copy_points(context, p, s.before);
   if (s.tangles.empty()) return;
   // Loose particles may have passed many triangles of others since the frame before.
-  refit(context, s.mesh, s.before, {}, s.tree);
+  refit(context, s.mesh, {.at = s.before}, s.tree);
   s.swept = false;
   find_tangles(context, s.mesh, s.tree, s.before, s.tasks, s.tangles);
   loosen(s.mesh, s.tangles, s.loose);

@@ -33,15 +33,14 @@ struct SelfContact {
   ContactMesh mesh;
   SweepTree tree;
   std::vector<PairTask> tasks;
-  std::vector<Tangle> tangles;     ///< triangles that cross
-  Loose loose;                     ///< corners of these, which contact leaves alone
-  std::vector<Point> rest;         ///< #P: positions at rest, meters, in the particles' first frame
-  std::vector<Point> before, now;  ///< #P: positions when the substep began, and at its end
-  MovedLeaves moved_leaves;        ///< those with particles that moved since crossings were counted
-  std::vector<Index> moved;        ///< particles that were moved after contact with the body
-  /// #P: positions at the last search, and displacements expected then. The weight of a position is how far
-  /// beyond what all are allowed the particle may be from its expected path, meters.
-  std::vector<Point> found, ahead;
+  std::vector<Tangle> tangles;      ///< triangles that cross
+  Loose loose;                      ///< corners of these, which contact leaves alone
+  std::vector<Point> rest;          ///< #P: positions at rest, meters, in the particles' first frame
+  std::vector<Point> before, now;   ///< #P: positions when the substep began, and at its end
+  MovedLeaves moved_leaves;         ///< those with particles that moved since crossings were counted
+  std::vector<Index> moved;         ///< particles that were moved after contact with the body
+  std::vector<Point> found, ahead;  ///< #P: positions at the last search, and displacements expected then
+  std::vector<float> beyond_m;      ///< #P: how far from there a particle may be beyond what all are allowed
   StrayedLeaves strayed;
   std::vector<Point> drift;     ///< #P: smoothed velocities, meters a second
   std::vector<LeafMove> moves;  ///< #leaves

@@ -39,14 +39,8 @@ void find_leaves(const ContactMesh& mesh, StrayedLeaves& s) {
   s.leaves.erase(repeated.begin(), repeated.end());
 }
 
-bool comes_before(const PairGroup& group, const WantedGroup& wanted) {
-  return std::pair(group.leaf[0], group.leaf[1]) < std::pair(wanted.leaf, wanted.other);
-}
-
-bool is_listed(const PairTask& task, const WantedGroup& wanted) {
-  const auto at = std::ranges::partition_point(
-      task.groups, [&](const PairGroup& group) { return comes_before(group, wanted); });
-  return at != task.groups.end() && at->leaf[0] == wanted.leaf && at->leaf[1] == wanted.other;
+bool is_listed(const PairTask& task, std::pair<std::uint32_t, std::uint32_t> leaves) {
+  return std::ranges::binary_search(task.groups, leaves, {}, leaves_of);
 }
 
 // Lists the groups that the strayed leaves have not, by task, leaf and other leaf.
@@ -58,20 +52,11 @@ void find_wanted(const SweepTree& tree, float reach_m, const std::vector<PairTas
       const auto task =
           std::ranges::partition_point(tasks, [leaf](const PairTask& t) { return t.last_leaf <= leaf; });
       const WantedGroup wanted = {static_cast<std::uint32_t>(task - tasks.begin()), leaf, other};
-      if (!is_listed(*task, wanted)) s.wanted.push_back(wanted);
+      if (!is_listed(*task, {leaf, other})) s.wanted.push_back(wanted);
     });
   std::ranges::sort(s.wanted);
   const auto repeated = std::ranges::unique(s.wanted);
   s.wanted.erase(repeated.begin(), repeated.end());
-}
-
-Sweep box_of(const ContactMesh& mesh, std::uint32_t leaf, std::span<const Point> at) {
-  Sweep box = no_sweep();
-  for (const Index i : mesh.particles_of(leaf)) {
-    const Float4 p = xyz(load(at[i]));
-    add({p, p, splat(0.0f), splat(0.0f)}, box);
-  }
-  return box;
 }
 
 // Adds groups to a task, in the order of all. Their distances are those when the substep began.
@@ -79,15 +64,12 @@ void add_groups(std::span<const WantedGroup> wanted, const SelfContact& s, std::
                 PairTask& task) {
   room.clear();
   for (const WantedGroup& w : wanted) {
-    const float room_m =
-        distance(box_of(s.mesh, w.leaf, s.before), box_of(s.mesh, w.other, s.before)) - s.gap_m;
-    room.push_back(new_group(s.mesh, w.leaf, w.other, room_m));
+    const float apart_m =
+        distance(sweep_of(s.mesh, w.leaf, {.at = s.before}), sweep_of(s.mesh, w.other, {.at = s.before}));
+    room.push_back(new_group(s.mesh, w.leaf, w.other, apart_m - s.gap_m));
   }
   task.groups_before.clear();
-  std::ranges::merge(
-      task.groups, room, std::back_inserter(task.groups_before), {},
-      [](const PairGroup& g) { return std::pair(g.leaf[0], g.leaf[1]); },
-      [](const PairGroup& g) { return std::pair(g.leaf[0], g.leaf[1]); });
+  std::ranges::merge(task.groups, room, std::back_inserter(task.groups_before), {}, leaves_of, leaves_of);
   std::swap(task.groups, task.groups_before);
 }
 
@@ -110,10 +92,11 @@ bool list_strayed(std::span<const Point> at, float since_s, float most_m, SelfCo
   for (const Index i : s.particles) {
     const float beyond_m = std::sqrt(expected.off2(at, i)) - most_m;
     if (!(beyond_m <= kMostBeyond * self.spare_m)) return false;
-    self.found[i].weight = self.spare_m * std::ceil(beyond_m / self.spare_m);
+    self.beyond_m[i] = self.spare_m * std::ceil(beyond_m / self.spare_m);
   }
   find_leaves(self.mesh, s);
-  for (const std::uint32_t leaf : s.leaves) refit_leaf(self.mesh, leaf, self.found, self.ahead, self.tree);
+  const SweptPoints points{self.found, self.ahead, self.beyond_m};
+  for (const std::uint32_t leaf : s.leaves) refit_leaf(self.mesh, leaf, points, self.tree);
   find_wanted(self.tree, self.gap_m + self.spare_m, self.tasks, s);
   for (auto first = s.wanted.begin(); first != s.wanted.end();) {
     const auto last =
