@@ -156,6 +156,21 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "limbs are parted up to where the others let expect their folds, and a stride makes no body taller") {
+  for (const std::uint64_t seed : {131000u, 131001u, 131005u}) {
+    CAPTURE(seed);
+    const auto scan = synth::make_scan({}, synth::ScanKind::kClosed, seed);
+    REQUIRE(scan.ok());
+    const anatomy::Anatomy found = analyzed(made::skin_of(*scan));
+    CHECK(worst_landmark(scan->persons[0], found) < 0.022);
+    CHECK(found.stature_m == doctest::Approx(scan->persons[0].stature_m).epsilon(0.015));
+    CHECK(std::ranges::none_of(found.warnings, [](const engine::Warning& w) {
+      return w.code == "armpit-uncertain" || w.code == "perineum-uncertain";
+    }));
+  }
+}
+
 TEST_CASE("webs of a body that leans, which no cut undoes, are refused with what touches") {
   const auto scan = synth::make_scan({}, synth::ScanKind::kWebbed, 20003);
   REQUIRE(scan.ok());

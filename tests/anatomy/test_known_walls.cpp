@@ -73,6 +73,43 @@ TEST_CASE("legs that overlap are parted in the middle up to the fold, and nothin
   CHECK(parted == 75);  // slices from 5 to 79
 }
 
+TEST_CASE("legs are parted in the middle, also where one of them runs into a bulge before both") {
+  geometry::FieldGrid grid = legs_and_trunk();
+  for (std::size_t i = 0; i < grid.value.size(); ++i) {
+    const Vec3 at = grid.low + kCell_m * Vec3(static_cast<double>(i % 80), static_cast<double>(i / 80 % 174),
+                                              static_cast<double>(i / 80 / 174));
+    const double bulge = 0.11 - (at - Vec3(0.03, 0.6, 0.05)).norm();
+    grid.value[i] = std::max(grid.value[i], static_cast<float>(bulge));
+  }
+  const std::vector<char> wall = anatomy::known_walls(
+      grid, landmarks(), {{LandmarkId::kPerineum, {0.0, kCrotch_m, 0.0}, Vec3::UnitY()}});
+  CHECK(std::ranges::any_of(wall, [](char w) { return w != 0; }));
+  for (std::size_t i = 0; i < wall.size(); ++i)
+    if (wall[i]) CHECK(std::abs(static_cast<double>(i % 80) - 40.0) < 1.5);
+}
+
+TEST_CASE("below the crotch of a body that strides there is no trunk that legs could not be parted from") {
+  geometry::FieldGrid grid = legs_and_trunk();
+  for (std::size_t i = 0; i < grid.value.size(); ++i) {  // what has grown together is as deep as the trunk
+    const Vec3 at = grid.low + kCell_m * Vec3(static_cast<double>(i % 80), static_cast<double>(i / 80 % 174),
+                                              static_cast<double>(i / 80 / 174));
+    const double web = 0.09 - std::hypot(at.x(), at.z());
+    if (at.y() > 0.6 && at.y() < 0.95) grid.value[i] = std::max(grid.value[i], static_cast<float>(web));
+  }
+  anatomy::Anatomy found = landmarks();
+  for (int side = 0; side < 2; ++side)
+    found.landmarks[static_cast<std::size_t>(body::of_side(LandmarkId::kKneeL, side))].position.z() =
+        side == 0 ? 0.24 : -0.24;
+  found.up = Vec3::UnitY();
+  const std::vector<char> wall =
+      anatomy::known_walls(grid, found, {{LandmarkId::kPerineum, {0.0, kCrotch_m, 0.0}, Vec3::UnitY()}});
+  for (std::size_t y = 66; y < 80; ++y) {
+    int walled = 0;
+    for (std::size_t x = 38; x < 43; ++x) walled += wall[grid.index(x, y, 20)];
+    CHECK(walled > 0);
+  }
+}
+
 TEST_CASE("without a fold there is no wall") {
   const std::vector<char> wall = anatomy::known_walls(legs_and_trunk(), landmarks(), {});
   CHECK(std::ranges::none_of(wall, [](char w) { return w != 0; }));

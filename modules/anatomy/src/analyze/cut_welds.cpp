@@ -9,9 +9,11 @@
 #include <bodice/anatomy/plausible.hpp>
 
 #include "analyze/crown_of_skin.hpp"
+#include "analyze/expected_folds.hpp"
 #include "analyze/folds_hidden.hpp"
 #include "analyze/thin_copy.hpp"
 #include "analyze/webs.hpp"
+#include "analyze/weld_signs.hpp"
 #include "check/fold_levels.hpp"
 #include "check/named_folds.hpp"
 #include "check/thighs.hpp"
@@ -36,6 +38,9 @@ constexpr double kMostArea = 1.0;
 
 /// Looks at a copy, each with the webs cut that the one before showed.
 constexpr int kPasses = 3;
+/// How often folds are moved to where limbs and trunk let expect them, which themselves are found better
+/// then.
+constexpr int kSettling = 2;
 /// How far a landmark may lie below the fold up to which limbs were parted; of the stature.
 constexpr double kBelowFold = 0.025;
 
@@ -57,32 +62,6 @@ struct WeldedBody {
   const Options& options;
   Analyze analyze;
 };
-
-bool shows_weld(const engine::Warning& w) {
-  return w.code == "limbs-fused" || w.code == "hand-fused-to-leg" || w.code == "legs-fused";
-}
-
-bool shows_welds(const Anatomy& found) {
-  return std::ranges::any_of(found.warnings, shows_weld);
-}
-
-bool is_welded(const engine::Result<Anatomy>& found) {
-  return !found || shows_welds(*found);
-}
-
-/// Whether paths along the skin are cut short. A handle alone, of a wall with a gap, may not do that.
-bool limbs_meet(const Anatomy& found) {
-  return std::any_of(found.warnings.begin(), found.warnings.end(),
-                     [](const engine::Warning& w) { return shows_weld(w) && w.code != "limbs-fused"; });
-}
-
-int doubts(const Anatomy& anatomy) {
-  return static_cast<int>(
-      std::count_if(anatomy.warnings.begin(), anatomy.warnings.end(), [](const engine::Warning& w) {
-        return w.code.ends_with("-uncertain") || w.code.ends_with("-disagrees") ||
-               w.code.ends_with("-differ") || w.code == "unusual-body" || w.code == "limbs-fused";
-      }));
-}
 
 /// `sure`: the cut is reported, and there is nothing to check. Handles that are left, of walls with gaps,
 /// are then none of the body's paths.
@@ -117,9 +96,9 @@ bool looks_right(const engine::Result<Anatomy>& as_is, const Anatomy& apart) {
 bool is_sure(const engine::Result<Anatomy>& as_is, const Anatomy& apart, const ThinCopy& thin,
              bool webs_only) {
   const bool deep = thin.depth > kDepths[0] * kMuchDeeper * apart.stature_m;
-  const auto handles = std::ranges::count(apart.warnings, "limbs-fused", &engine::Warning::code);
-  if (doubts(apart) > handles || fold_misfit(apart.landmarks) > (deep ? kDeepMisfit : 1.0)) return false;
-  if (folds_below_expected(apart.landmarks) || (webs_only && handles == 0)) return true;
+  if (doubts_but_handles(apart) > 0 || fold_misfit(apart.landmarks) > (deep ? kDeepMisfit : 1.0))
+    return false;
+  if (folds_below_expected(apart.landmarks) || (webs_only && doubts(apart) == 0)) return true;
   return !deep && looks_right(as_is, apart);
 }
 
@@ -213,7 +192,23 @@ Anatomy refined(const WeldedBody& body, Anatomy rough, const std::vector<Web>& s
   const auto parted = part_known(body, rough, std::move(folds));
   if (!parted) return rough;
   Anatomy fine = carried(body, *parted, as_is, false);
-  return doubts(fine) > doubts(rough) ? rough : fine;
+  return doubts_but_handles(fine) > doubts_but_handles(rough) ? rough : fine;
+}
+
+/// Limbs that were parted up to folds which limbs and trunk contradict are parted up to where these let
+/// expect them, if that agrees better.
+Anatomy settled(const WeldedBody& body, Anatomy apart, const engine::Result<Anatomy>& as_is, bool webs_only) {
+  for (int pass = 1; pass <= kSettling; ++pass) {
+    std::vector<Fold> folds = expected_folds(body.context, body.mesh, apart);
+    if (folds.empty()) return apart;
+    const auto parted = part_known(body, apart, std::move(folds));
+    if (!parted) return apart;
+    Anatomy next = carried(body, *parted, as_is, webs_only);
+    if (doubts(next) > doubts(apart) || fold_misfit(next.landmarks) >= fold_misfit(apart.landmarks))
+      return apart;
+    apart = std::move(next);
+  }
+  return apart;
 }
 
 /// What a copy of this depth shows, where that leaves no more in doubt than the skin as it is.
@@ -221,8 +216,10 @@ std::optional<Anatomy> apart_at(const WeldedBody& body, double depth, const std:
                                 const engine::Result<Anatomy>& as_is) {
   const auto parted = look(body, depth);
   if (!parted || shows_welds(parted->found)) return std::nullopt;
-  Anatomy apart = refined(body, carried(body, *parted, as_is, false), seen, as_is);
+  const Anatomy first = refined(body, carried(body, *parted, as_is, false), seen, as_is);
+  Anatomy apart = settled(body, first, as_is, false);
   if (as_is && doubts(apart) > doubts(*as_is) + static_cast<int>(seen.size())) return std::nullopt;
+  doubt_moved_folds(first, apart);
   return apart;
 }
 
@@ -232,8 +229,10 @@ std::optional<Anatomy> webs_apart(const WeldedBody& body, const std::vector<Web>
   add_folds(seen, folds);
   const auto parted = part_known(body, *as_is, std::move(folds));
   if (!parted) return std::nullopt;
-  Anatomy apart = carried(body, *parted, as_is, true);
+  const Anatomy first = carried(body, *parted, as_is, true);
+  Anatomy apart = settled(body, first, as_is, true);
   if (doubts(apart) > doubts(*as_is) + static_cast<int>(seen.size())) return std::nullopt;
+  doubt_moved_folds(first, apart);
   return apart;
 }
 
@@ -243,12 +242,14 @@ bool is_of_two(const TriMesh& mesh) {
   return geometry::surface_area(mesh) > kMostArea * length * length;
 }
 
-/// Keeps a cut with armpits and crotch where the limbs let expect them and no more in doubt, or the
-/// first one. Returns whether it is kept for that.
+/// Keeps the cut with armpits and crotch nearest to where the limbs let expect them, and no more in doubt.
+/// Returns whether it has them where whole bodies have.
 bool keep_better(std::optional<Anatomy> apart, std::optional<Anatomy>& best) {
   if (!apart) return false;
-  const bool fits = fold_misfit(apart->landmarks) <= 1.0 && (!best || doubts(*apart) <= doubts(*best));
-  if (!best || fits) best = std::move(apart);
+  const double off = fold_misfit(apart->landmarks);
+  const bool sound = !best || doubts(*apart) <= doubts(*best);
+  const bool fits = sound && off <= 1.0;
+  if (!best || (sound && off < fold_misfit(best->landmarks))) best = std::move(apart);
   return fits;
 }
 
@@ -275,12 +276,14 @@ engine::Result<Anatomy> cut_welds(const engine::Context& context, const TriMesh&
   auto as_is = analyze(context, mesh, options);
   const std::vector<Web> seen =
       as_is ? find_webs(context, mesh, *as_is, options.made_up) : std::vector<Web>{};
-  const bool welded = is_welded(as_is);
-  if (!welded && seen.empty()) return as_is;
+  const bool welded = is_welded(as_is), by_level = !welded && seen.empty();
+  const std::vector<Web> webs = by_level ? webs_by_level(options, *as_is) : seen;
+  if (!welded && webs.empty()) return as_is;
   const MeshDistance distance(context, mesh);
   if (auto skin = SampledSkin::make(mesh, distance)) {
     const WeldedBody body{context, mesh, distance, *skin, options, analyze};
-    auto apart = welded ? std::nullopt : webs_apart(body, seen, as_is);
+    auto apart = welded ? std::nullopt : webs_apart(body, webs, as_is);
+    if (by_level && !(apart && fold_misfit(apart->landmarks) < fold_misfit(as_is->landmarks))) return as_is;
     if (!apart) apart = welds_apart(body, seen, as_is);
     if (apart) return std::move(*apart);
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 
 #include "check/thighs.hpp"
@@ -31,6 +32,7 @@ class Floods {
 
   /// Nodes within a distance of a bone are of its limb.
   void seed(Limb limb, const Vec3& from, const Vec3& to, double radius) {
+    bones_.push_back({limb, from, to});
     geometry::Box box;
     box.extend(from), box.extend(to);
     std::array<std::size_t, 3> first, last;
@@ -59,6 +61,19 @@ class Floods {
 
   Limb of(std::size_t node) const { return limb_[node]; }
 
+  /// Nodes of the legs go to the one with the nearer bone: of thighs that have grown together in a stride,
+  /// the floods meet far from the middle, and paths along such a wall are too long.
+  void split_legs() {
+    for (std::size_t node = 0; node < limb_.size(); ++node) {
+      if (!is_leg(limb_[node])) continue;
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const Bone& bone : bones_) {
+        const double distance = is_leg(bone.limb) ? from_bone(position(node), bone.from, bone.to) : nearest;
+        if (distance < nearest) nearest = distance, limb_[node] = bone.limb;
+      }
+    }
+  }
+
   /// Inside nodes are not at the border, so that all six neighbors are in the grid.
   template <class Visit>
   void for_neighbors(std::size_t node, Visit&& visit) const {
@@ -67,6 +82,12 @@ class Floods {
   }
 
  private:
+  struct Bone {
+    Limb limb;
+    Vec3 from, to;
+  };
+
+  static bool is_leg(Limb limb) { return limb == kLegLeft || limb == kLegRight; }
   static double from_bone(const Vec3& p, const Vec3& from, const Vec3& to) {
     const Vec3 bone = to - from;
     const double along = std::clamp((p - from).dot(bone) / std::max(bone.squaredNorm(), 1e-300), 0.0, 1.0);
@@ -87,6 +108,7 @@ class Floods {
   const geometry::FieldGrid& grid_;
   const Fold* crotch_;
   std::vector<Limb> limb_;
+  std::vector<Bone> bones_;
   std::priority_queue<std::pair<float, std::size_t>> front_;
 };
 
@@ -133,10 +155,11 @@ const Fold* fold_between(Limb a, Limb b, const std::vector<Fold>& folds) {
 
 std::vector<char> known_walls(const geometry::FieldGrid& depth, const Anatomy& found,
                               const std::vector<Fold>& folds) {
-  const bool stands = std::ranges::min(thigh_cosines(found)) > kUpright;
-  Floods floods(depth, stands ? fold_of(LandmarkId::kPerineum, folds) : nullptr);
+  const bool sits = std::ranges::min(thigh_cosines(found)) < kNotBent;
+  Floods floods(depth, sits ? nullptr : fold_of(LandmarkId::kPerineum, folds));
   seed_limbs(found, floods);
   floods.run();
+  floods.split_legs();
   std::vector<char> wall(depth.value.size(), 0);
   for (std::size_t node = 0; node < wall.size(); ++node) {
     if (floods.of(node) == kNone) continue;

@@ -11,6 +11,7 @@
 
 #include "analyze/known_walls.hpp"
 #include "analyze/limb_walls.hpp"
+#include "analyze/upright_height.hpp"
 #include "landmarks/stature.hpp"
 
 namespace bodice::inline v0_1::anatomy {
@@ -194,13 +195,15 @@ Anatomy carry_out(const engine::Context& context, const ThinCopy& thin, const An
   const auto middle = [&](LandmarkId left, LandmarkId right) {
     return Vec3(0.5 * (mark(left).position + mark(right).position));
   };
-  out.stature_m = stature_of({mark(LandmarkId::kCrown).position,
-                              mark(LandmarkId::kNeck).position,
-                              mark(LandmarkId::kPerineum).position,
-                              middle(LandmarkId::kKneeL, LandmarkId::kKneeR),
-                              middle(LandmarkId::kAnkleL, LandmarkId::kAnkleR),
-                              {mark(LandmarkId::kToeL).position, mark(LandmarkId::kToeR).position}},
-                             skin.positions, found.stature_m + 2.0 * thin.depth);  // sole and crown
+  out.stature_m =
+      stature_of({mark(LandmarkId::kCrown).position,
+                  mark(LandmarkId::kNeck).position,
+                  mark(LandmarkId::kPerineum).position,
+                  middle(LandmarkId::kKneeL, LandmarkId::kKneeR),
+                  middle(LandmarkId::kAnkleL, LandmarkId::kAnkleR),
+                  {mark(LandmarkId::kToeL).position, mark(LandmarkId::kToeR).position}},
+                 skin.positions,
+                 upright_height(out).value_or(found.stature_m + 2.0 * thin.depth));  // sole and crown
   return out;
 }
 

@@ -240,6 +240,11 @@ Vec3 crotch_fold(const engine::Context& context, const TriMesh& skin, const Anat
 
 }  // namespace
 
+Fold fold_at(const Anatomy& found, LandmarkId id) {
+  const Route route = route_inward(found, id);
+  return {id, route.from, route.inward};
+}
+
 std::vector<Fold> find_folds(const engine::Context& context, const TriMesh& skin, const Anatomy& found) {
   std::vector<Fold> folds;
   for (const LandmarkId id : kFoldLandmarks) {

@@ -24,6 +24,9 @@ struct Fold {
   geometry::Vec3 inward = geometry::Vec3::UnitY();  ///< unit
 };
 
+/// The fold where `found` has its landmark.
+Fold fold_at(const Anatomy& found, body::LandmarkId id);
+
 /// The folds at the armpits and the crotch of a skin on which limbs have grown together. `found` was found on
 /// a copy on which they are apart.
 std::vector<Fold> find_folds(const engine::Context& context, const geometry::TriMesh& skin,

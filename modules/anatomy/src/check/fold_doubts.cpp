@@ -56,6 +56,11 @@ bool was_closed(const Options& options) {
 
 }  // namespace
 
+bool may_hide_folds(const Options& options, const Anatomy& anatomy) {
+  const auto below = folds_below_expected(anatomy.landmarks);
+  return below && (was_closed(options) || hides_armpits(anatomy, *below));
+}
+
 void doubt_folds(const Options& options, Anatomy& anatomy) {
   const bool cut = was_cut(anatomy), changed = cut || was_closed(options);
   if (cut) doubt_neck(anatomy);

@@ -10,6 +10,8 @@ namespace bodice::inline v0_1::anatomy {
 
 /// A body stands if the cosines of both thighs reach this.
 inline constexpr double kUpright = 0.75;
+/// A body that reaches this strides, or stands: those of made scans have .68 and more.
+inline constexpr double kNotBent = 0.6;
 
 /// Cosines between the left and the right thigh and the line from perineum to neck: near 1 for a body that
 /// stands, near 0 for one that sits.

@@ -1,0 +1,22 @@
+// Folds that lie where limbs and trunk contradict them.
+#pragma once
+
+#include <vector>
+
+#include "analyze/webs.hpp"
+
+namespace bodice::inline v0_1::anatomy {
+
+/// The folds of a body with limbs that were parted. Those that are far from where limbs and trunk let expect
+/// them lie there instead. Empty if none is. Cost: as find_folds.
+std::vector<Fold> expected_folds(const engine::Context& context, const geometry::TriMesh& skin,
+                                 const Anatomy& found);
+
+/// Warns of folds that lie where they are expected `after` limbs were parted anew, and were far off `before`:
+/// what misled the first look may mislead the second.
+void doubt_moved_folds(const Anatomy& before, Anatomy& after);
+
+/// The webs that show by the levels of folds alone, on a skin that was closed or hides both armpits.
+std::vector<Web> webs_by_level(const Options& options, const Anatomy& found);
+
+}  // namespace bodice::anatomy

@@ -1,0 +1,97 @@
+// Folds that limbs and trunk contradict, and the height of bodies in a stride.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include <bodice/synth/body.hpp>
+
+#include "analyze/expected_folds.hpp"
+#include "analyze/upright_height.hpp"
+#include "analyzed.hpp"
+#include "check/fold_levels.hpp"
+
+using namespace bodice;
+using body::LandmarkId;
+
+namespace {
+
+struct Made {
+  synth::Body truth;
+  anatomy::Anatomy found;
+};
+
+Made made_in(synth::Pose pose) {
+  auto truth = synth::make_body({}, {.pose = pose, .vertices = 5000});
+  REQUIRE(truth.ok());
+  return {*truth, analyzed(truth->mesh)};
+}
+
+body::Landmark& landmark_of(anatomy::Anatomy& found, LandmarkId id) {
+  return found.landmarks[static_cast<std::size_t>(id)];
+}
+
+}  // namespace
+
+TEST_CASE("a fold that was found far too low or too high is expected near to where it is") {
+  const Made made = made_in(synth::Pose::kArmsDown);
+  for (const LandmarkId id : {LandmarkId::kArmpitL, LandmarkId::kArmpitR, LandmarkId::kPerineum})
+    for (const double lower : {0.05, -0.05}) {
+      CAPTURE(lower);
+      anatomy::Anatomy moved = made.found;
+      const geometry::Vec3 truth = landmark_of(moved, id).position;
+      landmark_of(moved, id).position -= lower * moved.stature_m * moved.up;
+      const auto folds = anatomy::expected_folds({}, made.truth.mesh, moved);
+      REQUIRE(folds.size() == 3);
+      for (const anatomy::Fold& fold : folds) {
+        const geometry::Vec3& at = fold.id == id ? truth : landmark_of(moved, fold.id).position;
+        const double off = std::abs((fold.at - at).dot(moved.up)) / moved.stature_m;
+        if (fold.id != LandmarkId::kPerineum || fold.id == id) CHECK(off < 0.025);
+      }
+    }
+  CHECK(anatomy::expected_folds({}, made.truth.mesh, made.found).empty());
+}
+
+TEST_CASE("a fold that was found very far off stays in doubt where it was moved to") {
+  const Made made = made_in(synth::Pose::kArmsDown);
+  struct Case {
+    double lower;
+    int doubted;
+  };
+  for (const Case& c : {Case{0.024, 0}, Case{0.035, 1}}) {
+    anatomy::Anatomy before = made.found, after = made.found;
+    const auto below = anatomy::folds_below_expected(before.landmarks);
+    REQUIRE(below);
+    landmark_of(before, LandmarkId::kPerineum).position -=
+        (c.lower - (*below)[2]) * before.stature_m * before.up;
+    anatomy::doubt_moved_folds(before, after);
+    CHECK(std::ranges::count(after.warnings, "perineum-uncertain", &engine::Warning::code) == c.doubted);
+  }
+}
+
+TEST_CASE("an armpit that lies too low shows a web where the skin closes holes") {
+  Made made = made_in(synth::Pose::kArmsDown);
+  const geometry::Vec3 truth = landmark_of(made.found, LandmarkId::kArmpitL).position;
+  landmark_of(made.found, LandmarkId::kArmpitL).position -= 0.05 * made.found.stature_m * made.found.up;
+  CHECK(anatomy::webs_by_level({}, made.found).empty());
+  const std::vector<std::uint8_t> closed(4, 1);
+  anatomy::Options options;
+  options.made_up = closed;
+  const auto webs = anatomy::webs_by_level(options, made.found);
+  REQUIRE(webs.size() == 1);
+  CHECK(webs[0].id == LandmarkId::kArmpitL);
+  CHECK(std::abs((webs[0].fold - truth).dot(made.found.up)) < 0.02 * made.found.stature_m);
+}
+
+TEST_CASE("the height by joints holds for bodies that stand or stride, also where a web lowers the crotch") {
+  for (const auto pose : {synth::Pose::kA, synth::Pose::kStride}) {
+    Made made = made_in(pose);
+    for (int lowered = 0; lowered < 2; ++lowered) {
+      CAPTURE(lowered);
+      const auto height_m = anatomy::upright_height(made.found);
+      REQUIRE(height_m);
+      CHECK(*height_m == doctest::Approx(made.truth.stature_m).epsilon(0.015));
+      landmark_of(made.found, LandmarkId::kPerineum).position -= 0.02 * made.found.stature_m * made.found.up;
+    }
+  }
+  CHECK_FALSE(anatomy::upright_height(made_in(synth::Pose::kSit).found));
+}
