@@ -21,10 +21,6 @@ ordered_json rounded(const Eigen::VectorXd& values);
 /// Mean and covariance of the coordinates of the true landmark, after what the build explains of them.
 ordered_json fit_signature(const bodice::anatomy::LandmarkKind& kind, const Samples& samples);
 
-/// Fit the two signatures that have features of their own, as fit_signature() does for the others.
-ordered_json fit_armpit_signature(const Samples& samples);
-ordered_json fit_perineum_signature(const Samples& samples);
-
 /// Least squares of the height above the true level over the trunk's skin near it. `samples`: standing
 /// bodies.
 ordered_json fit_trunk_level(const bodice::anatomy::LandmarkKind& kind, const Samples& samples);

@@ -14,6 +14,7 @@
 #include "fit_fold_levels.hpp"
 #include "fit_joint_offsets.hpp"
 #include "fit_lengths.hpp"
+#include "fit_own_signatures.hpp"
 #include "fit_part_borders.hpp"
 #include "landmarks/landmark_table.hpp"
 
@@ -168,8 +169,8 @@ constexpr OwnFit kOwnFits[] = {{"stature", "stature", calibrate::fit_stature},
                                {"joint_borders", "joint_borders", calibrate::fit_joint_borders},
                                {"joint_offsets", "joint_offsets", calibrate::fit_joint_offsets},
                                {"fold_levels", "fold_levels", calibrate::fit_fold_levels, true},
-                               {"perineum_signature", "perineum", calibrate::fit_perineum_signature},
-                               {"armpit_signature", "armpit", calibrate::fit_armpit_signature}};
+                               {"perineum_signature", "perineum", calibrate::fit_perineum_signature, true},
+                               {"armpit_signature", "armpit", calibrate::fit_armpit_signature, true}};
 
 constexpr const char* kUsage =
     "calibrate DIR [--bodies N] [--only NAME,NAME] [--data BODIES]\n"

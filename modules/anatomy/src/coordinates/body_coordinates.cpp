@@ -37,9 +37,6 @@ constexpr Signature<9, 4> kPerineum = make_signature<9, 4>(
 constexpr float kSizeToStature = 2.19F;
 /// The range in which the perineum lies on the path from one foot to the other, as shares of that path.
 constexpr float kPerineumFrom = 0.45F, kPerineumTo = 0.58F;
-/// A vertex that is nearer to the breastbone along the skin by this fraction of the body size is another
-/// candidate of the perineum.
-constexpr float kInFront = 0.08F;
 /// The usual distances from breastbone and back to where the legs merge, for legs on which that is not found;
 /// fractions of the body size.
 constexpr float kUsualMergeFront = 0.34F, kUsualMergeBack = 0.39F;
@@ -100,20 +97,17 @@ void BodyCoordinates::measure_lengths() {
 
 void BodyCoordinates::find_perineum(const engine::Context& context, const Skin& skin) {
   const bool merged = merge_.at.found();
-  const Field &left_foot = *tips_.from_foot[0], &right_foot = *tips_.from_foot[1];
+  const std::size_t count = tips_.from_foot[0]->size();
   merge_front_ = merged ? value_at(skin, merge_.at, from_front_) : kUsualMergeFront * size_;
   merge_back_ = merged ? value_at(skin, merge_.at, from_back_) : kUsualMergeBack * size_;
   const auto expected = kPerineum.expected(perineum_measures());
   const auto distance2 = [&](std::size_t v) { return kPerineum.distance2(perineum_features(v), expected); };
-  const auto may_be = [&](std::size_t v) {
-    const float feet = left_foot[v] + right_foot[v];
-    return feet > 2.0F * kPerineumFrom * tips_.feet_apart && feet < 2.0F * kPerineumTo * tips_.feet_apart;
-  };
-  const NearestSignature best = nearest_signature(context, left_foot.size(), may_be, distance2);
+  const auto may_be = [&](std::size_t v) { return may_be_perineum(v); };
+  const NearestSignature best = nearest_signature(context, count, may_be, distance2);
   const auto before_it = [&](std::size_t v) {
     return may_be(v) && from_front_[v] < from_front_[best.vertex] - kInFront * size_;
   };
-  const NearestSignature front = nearest_signature(context, left_foot.size(), before_it, distance2);
+  const NearestSignature front = nearest_signature(context, count, before_it, distance2);
   if (before_it(front.vertex)) perineum_margin_ = front.mahalanobis - best.mahalanobis;
   const NearestSignature found = perineum_margin_ < kFoldMargin ? front : best;
   const float least2 = found.mahalanobis * found.mahalanobis;
@@ -122,6 +116,11 @@ void BodyCoordinates::find_perineum(const engine::Context& context, const Skin& 
                     [&](Index v) { return may_be(v) ? std::exp(-0.5F * (distance2(v) - least2)) : 0.0F; });
   perineum_ = vertex_near(skin, perineum_position_, found.vertex);
   perineum_mahalanobis_ = found.mahalanobis;
+}
+
+bool BodyCoordinates::may_be_perineum(std::size_t v) const {
+  const float feet = (*tips_.from_foot[0])[v] + (*tips_.from_foot[1])[v];
+  return feet > 2.0F * kPerineumFrom * tips_.feet_apart && feet < 2.0F * kPerineumTo * tips_.feet_apart;
 }
 
 std::array<float, 9> BodyCoordinates::perineum_features(std::size_t v) const {

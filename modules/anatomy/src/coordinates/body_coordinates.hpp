@@ -15,6 +15,10 @@ namespace bodice::inline v0_1::anatomy {
 /// the fold misled had margins of 2.7 or less, and all others but one of 3.2 or more.
 inline constexpr float kFoldMargin = 2.9F;
 
+/// A vertex that is nearer to the breastbone along the skin by this fraction of the body size is another
+/// candidate of the perineum.
+inline constexpr float kInFront = 0.08F;
+
 /// The coordinates of every vertex of a skin, with the lengths and the perineum that they are measured by.
 class BodyCoordinates {
  public:
@@ -33,6 +37,8 @@ class BodyCoordinates {
   float perineum_mahalanobis() const { return perineum_mahalanobis_; }
   /// By how many deviations the best vertex in front of the one that fits best fits worse than that one.
   float perineum_margin() const { return perineum_margin_; }
+  /// Whether a vertex lies where the perineum is searched for.
+  bool may_be_perineum(std::size_t vertex) const;
   /// The features of the perineum's signature at a vertex, and the measures of the body by which they are
   /// expected.
   std::array<float, 9> perineum_features(std::size_t vertex) const;

@@ -84,6 +84,14 @@ std::array<float, 14> armpit_features(const BodyCoordinates& coordinates, std::s
           x[kFromHead]};
 }
 
+bool may_be_armpit(const BodyCoordinates& coordinates, std::size_t v, int side) {
+  const geodesic::Field& own = *coordinates.extremities().from_hand[side];
+  const float apart = coordinates.extremities().hands_apart;
+  if (!(own[v] > kArmpitFrom * apart && own[v] < kArmpitTo * apart)) return false;
+  const CoordinateArray x = coordinates.at(v, side);
+  return std::abs(x[kPastShoulder]) < kNearShoulder && x[kHandFootDetour] < kArmpitDetour;
+}
+
 ArmpitSignature find_armpit(const engine::Context& context, const Skin& skin,
                             const BodyCoordinates& coordinates, int side) {
   const float half = half_chest(coordinates, side);
@@ -91,13 +99,7 @@ ArmpitSignature find_armpit(const engine::Context& context, const Skin& skin,
   const auto distance2 = [&](std::size_t v) {
     return kArmpit.distance2(armpit_features(coordinates, v, side, half), expected);
   };
-  const geodesic::Field& own = *coordinates.extremities().from_hand[side];
-  const float apart = coordinates.extremities().hands_apart;
-  const auto may_be = [&](std::size_t v) {
-    if (!(own[v] > kArmpitFrom * apart && own[v] < kArmpitTo * apart)) return false;
-    const CoordinateArray x = coordinates.at(v, side);
-    return std::abs(x[kPastShoulder]) < kNearShoulder && x[kHandFootDetour] < kArmpitDetour;
-  };
+  const auto may_be = [&](std::size_t v) { return may_be_armpit(coordinates, v, side); };
   const NearestSignature found =
       nearest_signature(context, coordinates.from_perineum().size(), may_be, distance2);
   const float least2 = found.mahalanobis * found.mahalanobis;

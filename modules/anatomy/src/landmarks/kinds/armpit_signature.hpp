@@ -19,6 +19,9 @@ struct ArmpitSignature {
 /// arm, as a fraction of the body size. O(#V).
 float half_chest(const BodyCoordinates& coordinates, int side);
 
+/// Whether a vertex lies where the armpit of a side is searched for.
+bool may_be_armpit(const BodyCoordinates& coordinates, std::size_t vertex, int side);
+
 /// What the armpit's signature reads at a vertex, and which measures of the body it follows.
 std::array<float, 14> armpit_features(const BodyCoordinates& coordinates, std::size_t vertex, int side,
                                       float half_chest);
