@@ -1,31 +1,33 @@
 #include "selfcontact/moved_leaves.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-constexpr std::size_t kGroupsOfLeaf = 8;
+constexpr std::size_t kTasksOfLeaf = 4;
+constexpr std::uint32_t kNoTask = ~std::uint32_t{0};
 
-// Calls visit(leaf, group) for each group once a leaf; a group of one leaf is visited once.
+// Calls visit(leaf, task) once for each task that has groups of the leaf.
 template <class Visit>
-void for_each_leaf_of_group(const std::vector<PairTask>& tasks, Visit&& visit) {
+void for_each_task_of_leaf(const std::vector<PairTask>& tasks, std::vector<std::uint32_t>& last_task,
+                           Visit&& visit) {
+  std::ranges::fill(last_task, kNoTask);
   for (std::uint32_t t = 0; t < tasks.size(); ++t)
-    for (std::uint32_t g = 0; g < tasks[t].groups.size(); ++g) {
-      const PairGroup& group = tasks[t].groups[g];
-      visit(group.leaf[0], GroupOfTask{t, g});
-      if (group.leaf[1] != group.leaf[0]) visit(group.leaf[1], GroupOfTask{t, g});
-    }
+    for (const PairGroup& group : tasks[t].groups)
+      for (const std::uint32_t leaf : group.leaf)
+        if (std::exchange(last_task[leaf], t) != t) visit(leaf, t);
 }
 
-void index_groups(const std::vector<PairTask>& tasks, MovedLeaves& m) {
+void index_tasks(const std::vector<PairTask>& tasks, MovedLeaves& m) {
   std::ranges::fill(m.begin, 0u);
-  for_each_leaf_of_group(tasks, [&](std::uint32_t leaf, GroupOfTask) { ++m.begin[leaf + 1]; });
+  for_each_task_of_leaf(tasks, m.last_task, [&](std::uint32_t leaf, std::uint32_t) { ++m.begin[leaf + 1]; });
   for (std::size_t leaf = 1; leaf < m.begin.size(); ++leaf) m.begin[leaf] += m.begin[leaf - 1];
-  m.groups.resize(m.begin.back());
+  m.tasks.resize(m.begin.back());
   // Each offset moves on to the end of its leaf while the leaf is filled, which is the next leaf's offset.
-  for_each_leaf_of_group(tasks,
-                         [&](std::uint32_t leaf, GroupOfTask group) { m.groups[m.begin[leaf]++] = group; });
+  for_each_task_of_leaf(tasks, m.last_task,
+                        [&](std::uint32_t leaf, std::uint32_t task) { m.tasks[m.begin[leaf]++] = task; });
   std::shift_right(m.begin.begin(), m.begin.end(), 1);
   m.begin.front() = 0;
   m.indexed = true;
@@ -33,13 +35,14 @@ void index_groups(const std::vector<PairTask>& tasks, MovedLeaves& m) {
 
 }  // namespace
 
-MovedLeaves make_moved_leaves(const ContactMesh& mesh) {
+MovedLeaves make_moved_leaves(const ContactMesh& mesh, std::size_t tasks) {
   MovedLeaves moved;
-  moved.is_moved.resize(mesh.leaves());
+  moved.is_moved.resize(mesh.leaves()), moved.last_task.resize(mesh.leaves());
   moved.leaves.reserve(mesh.leaves());
   moved.begin.resize(mesh.leaves() + 1);
-  moved.groups.reserve(kGroupsOfLeaf * mesh.leaves());
-  moved.chosen.reserve(kGroupsOfLeaf * mesh.leaves());
+  moved.tasks.reserve(kTasksOfLeaf * mesh.leaves());
+  moved.is_chosen.resize(tasks);
+  moved.chosen.reserve(tasks);
   return moved;
 }
 
@@ -58,16 +61,13 @@ void forget_moved(MovedLeaves& moved) {
   moved.leaves.clear();
 }
 
-std::span<const GroupOfTask> groups_of_moved(const std::vector<PairTask>& tasks, MovedLeaves& m) {
-  if (!m.indexed) index_groups(tasks, m);
+std::span<const std::uint32_t> tasks_of_moved(const std::vector<PairTask>& tasks, MovedLeaves& m) {
+  if (!m.indexed) index_tasks(tasks, m);
   m.chosen.clear();
   for (const std::uint32_t leaf : m.leaves)
-    for (std::uint32_t k = m.begin[leaf]; k < m.begin[leaf + 1]; ++k) {
-      const GroupOfTask group = m.groups[k];
-      const std::uint32_t first = tasks[group.task].groups[group.group].leaf[0];
-      if (first == leaf || !m.is_moved[first]) m.chosen.push_back(group);  // that of two moved leaves once
-    }
-  std::ranges::sort(m.chosen);
+    for (std::uint32_t k = m.begin[leaf]; k < m.begin[leaf + 1]; ++k)
+      if (std::exchange(m.is_chosen[m.tasks[k]], std::uint8_t{1}) == 0) m.chosen.push_back(m.tasks[k]);
+  for (const std::uint32_t task : m.chosen) m.is_chosen[task] = 0;
   return m.chosen;
 }
 

@@ -1,8 +1,7 @@
-// The leaves with particles that moved since crossings were last counted, and the groups of these. Few
-// particles move in a round of corrections, and a pass over all groups would cost more than the corrections.
+// The leaves with particles that moved since crossings were last counted, and the tasks with groups of these.
+// Few particles move in a round of corrections, and a pass over all tasks would cost more than the corrections.
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,25 +10,24 @@
 
 namespace bodice::inline v0_1::cloth {
 
-/// A group of a task, by its indices.
-struct GroupOfTask {
-  std::uint32_t task = 0, group = 0;
-
-  auto operator<=>(const GroupOfTask&) const = default;
-};
-
-/// The leaves that moved, and an index of the groups of all leaves.
+/// The leaves that moved, and an index of the tasks of all leaves.
 struct MovedLeaves {
-  std::vector<std::uint8_t> is_moved;  ///< #leaves
-  std::vector<std::uint32_t> leaves;   ///< those that are, each once
-  bool indexed = false;                ///< whether the index belongs to the present groups
-  std::vector<std::uint32_t> begin;    ///< #leaves + 1: offsets into `groups`
-  std::vector<GroupOfTask> groups;     ///< those of each leaf
-  std::vector<GroupOfTask> chosen;     ///< room for groups_of_moved()
+  std::vector<std::uint8_t> is_moved;     ///< #leaves
+  std::vector<std::uint32_t> leaves;      ///< those that are, each once
+  bool indexed = false;                   ///< whether the index belongs to the present groups
+  std::vector<std::uint32_t> begin;       ///< #leaves + 1: offsets into `tasks`
+  std::vector<std::uint32_t> tasks;       ///< those with groups of each leaf
+  std::vector<std::uint32_t> last_task;   ///< #leaves: room to index
+  std::vector<std::uint8_t> is_chosen;    ///< #tasks: room for tasks_of_moved(), all zero between calls
+  std::vector<std::uint32_t> chosen;      ///< the result of tasks_of_moved()
+
+  bool has_moved(const PairGroup& group) const {
+    return (is_moved[group.leaf[0]] | is_moved[group.leaf[1]]) != 0;
+  }
 };
 
-/// No leaf has moved yet. Keeps room for a few groups a leaf, so that few frames need more.
-MovedLeaves make_moved_leaves(const ContactMesh& mesh);
+/// No leaf has moved yet. Keeps room for a few tasks a leaf, so that few frames need more.
+MovedLeaves make_moved_leaves(const ContactMesh& mesh, std::size_t tasks);
 
 /// Notes that the triangles of these particles moved. O(triangles of the particles).
 void note_moved(const ContactMesh& mesh, std::span<const Index> particles, MovedLeaves& moved);
@@ -37,8 +35,8 @@ void note_moved(const ContactMesh& mesh, std::span<const Index> particles, Moved
 /// Forgets which leaves moved. O(moved leaves).
 void forget_moved(MovedLeaves& moved);
 
-/// The groups of all leaves that moved, each once, by task and then in the order of the task. The index is
-/// made where the groups were listed anew: O(groups). Otherwise O(n log n) in the groups that are returned.
-std::span<const GroupOfTask> groups_of_moved(const std::vector<PairTask>& tasks, MovedLeaves& moved);
+/// The tasks with groups of leaves that moved, each once, in no order that means anything. The index is made
+/// where groups were listed anew: O(groups). Otherwise O(moved leaves).
+std::span<const std::uint32_t> tasks_of_moved(const std::vector<PairTask>& tasks, MovedLeaves& moved);
 
 }  // namespace bodice::cloth

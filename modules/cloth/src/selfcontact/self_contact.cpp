@@ -117,8 +117,8 @@ std::size_t count_crossing_again(const engine::Context& context, const SelfSubst
     return count_crossing(context, substep, room, s);
   for (const std::uint32_t leaf : s.moved_leaves.leaves)
     s.moves[leaf] = move_of(s.mesh, leaf, s.before, s.now);
-  const std::size_t count = find_crossing_among(source_of(s), {s.now, s.zones.guard, s.zones.parent, room},
-                                                groups_of_moved(s.tasks, s.moved_leaves), s.tasks);
+  const std::size_t count = find_crossing_again(
+      context, source_of(s), {s.now, s.zones.guard, s.zones.parent, room}, s.moved_leaves, s.tasks);
   forget_moved(s.moved_leaves);
   return count;
 }
@@ -227,7 +227,7 @@ SelfContact make_self_contact(const geometry::TriMesh& mesh, const Particles& p,
   s.zones = make_zones(p.count());
   s.loose = make_loose(p.count());
   s.moves.resize(s.mesh.leaves());
-  s.moved_leaves = make_moved_leaves(s.mesh);
+  s.moved_leaves = make_moved_leaves(s.mesh, s.tasks.size());
   s.strayed = make_strayed_leaves(p.count(), s.mesh);
   s.moved.reserve(p.count()), s.beyond_m.resize(p.count());
   for (auto* points : {&s.rest, &s.before, &s.now, &s.found, &s.ahead, &s.drift}) points->resize(p.count());

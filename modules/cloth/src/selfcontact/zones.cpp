@@ -23,7 +23,8 @@ constexpr float kHeldOfGap = 0.1f;
 // Sweeps over the guarded particles of zones.
 constexpr int kLifts = 3;
 
-constexpr std::uint32_t kNoTask = ~std::uint32_t{0};
+// One worker looks at so many tasks again, of which few groups moved.
+constexpr std::size_t kTasksAgain = 4;
 
 // A zone with a pin moves as the pin, up to the rounding of floats.
 constexpr float kPinOfZone = 1e7f;
@@ -173,16 +174,18 @@ std::size_t find_crossing(const engine::Context& context, const ContactSource& s
   return count_all_crossing(tasks);
 }
 
-std::size_t find_crossing_among(const ContactSource& source, const CrossingSearch& how,
-                                std::span<const GroupOfTask> groups, std::vector<PairTask>& tasks) {
+std::size_t find_crossing_again(const engine::Context& context, const ContactSource& source,
+                                const CrossingSearch& how, MovedLeaves& moved, std::vector<PairTask>& tasks) {
   for (PairTask& task : tasks) task.crossing.clear(), task.held.clear();
-  std::uint32_t tidied = kNoTask;
-  for (const auto& [t, g] : groups) {
-    PairTask& task = tasks[t];
-    if (t != tidied) tidy(task), tidy_contacts(task);  // in a pinch, rounds find the same groups many times
-    tidied = t;
-    find_crossing_in(source, how, task.groups[g], task);
-  }
+  const std::span<const std::uint32_t> again = tasks_of_moved(tasks, moved);
+  engine::parallel_for(context, again.size(), kTasksAgain, [&](std::size_t begin, std::size_t end) {
+    for (const std::uint32_t t : again.subspan(begin, end - begin)) {
+      PairTask& task = tasks[t];
+      tidy(task), tidy_contacts(task);  // in a pinch, rounds find the same groups many times
+      for (PairGroup& group : task.groups)
+        if (moved.has_moved(group)) find_crossing_in(source, how, group, task);
+    }
+  });
   return count_all_crossing(tasks);
 }
 

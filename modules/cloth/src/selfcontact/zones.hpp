@@ -46,10 +46,10 @@ struct CrossingSearch {
 std::size_t find_crossing(const engine::Context& context, const ContactSource& source,
                           const CrossingSearch& how, std::vector<PairTask>& tasks);
 
-/// Lists those of some groups (groups_of_moved()) and adds the pairs that may cross to those of before;
-/// returns the number of the former. For few groups, on the calling thread.
-std::size_t find_crossing_among(const ContactSource& source, const CrossingSearch& how,
-                                std::span<const GroupOfTask> groups, std::vector<PairTask>& tasks);
+/// Lists those of leaves that moved, and adds the pairs that may cross to those of before; returns the number
+/// of the former. The cost is that of the tasks with such leaves.
+std::size_t find_crossing_again(const engine::Context& context, const ContactSource& source,
+                                const CrossingSearch& how, MovedLeaves& moved, std::vector<PairTask>& tasks);
 
 /// Joins the particles of the pairs that would cross, and moves all zones: writes their members' positions to
 /// `now`. Pins stay where they are; a zone with some moves as these do.
