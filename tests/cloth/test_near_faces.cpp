@@ -45,9 +45,11 @@ TEST_CASE(
     const TriMesh mesh = folded_strip(angle);
     const cloth::ContactMesh leaves = cloth::make_contact_mesh(mesh);
     REQUIRE(leaves.leaves() == 2);
-    const float left = cloth::turn_left(leaves, 0, 1, points_of(mesh.positions));
-    const double wanted = degrees > 120.0 ? 0.0 : std::sin((75.0 - degrees / 2) * std::numbers::pi / 180.0);
-    CHECK(double{left} == doctest::Approx(wanted).epsilon(1e-4));
+    const float left_m = cloth::flat_for(leaves, 0, 1, points_of(mesh.positions));
+    const double height_m = 0.5 * 0.25 / std::hypot(0.5, 0.25);
+    const double wanted =
+        degrees > 120.0 ? 0.0 : height_m * std::sin((75.0 - degrees / 2) * std::numbers::pi / 180.0);
+    CHECK(double{left_m} == doctest::Approx(wanted).epsilon(1e-4));
   }
 }
 

@@ -38,19 +38,10 @@ std::vector<std::uint32_t> spatial_order(const geometry::TriMesh& mesh,
   return order;
 }
 
-double least_height(const geometry::TriMesh& mesh, std::uint32_t t) {
-  const auto& [a, b, c] = mesh.triangles[t];
-  const Vec3 &p = mesh.positions[a], &q = mesh.positions[b], &r = mesh.positions[c];
-  const double longest = std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()});
-  return (q - p).cross(r - p).norm() / std::max(longest, 1e-30);
-}
-
 void add_leaf(const geometry::TriMesh& mesh, const Joints& joints, const std::vector<std::uint32_t>& patch,
               std::vector<bool>& owned, ContactMesh& out) {
   std::vector<Index> met;
-  double width = least_height(mesh, patch.front());
   for (const std::uint32_t t : patch) {
-    width = std::min(width, least_height(mesh, t));
     Face face{.edges = joints.owned[t], .turned = joints.turned[t]};
     for (std::size_t k = 0; k < 3; ++k) {
       const Index i = face.particle[k] = mesh.triangles[t][k];
@@ -59,14 +50,13 @@ void add_leaf(const geometry::TriMesh& mesh, const Joints& joints, const std::ve
       met.push_back(i);
     }
     out.faces.push_back(face);
-    out.leaf_of.push_back(static_cast<std::uint32_t>(out.width_m.size()));
+    out.leaf_of.push_back(static_cast<std::uint32_t>(out.face_begin.size() - 1));
   }
   std::ranges::sort(met);
   const auto repeated = std::ranges::unique(met);
   out.particle.insert(out.particle.end(), met.begin(), repeated.begin());
   out.face_begin.push_back(static_cast<std::uint32_t>(out.faces.size()));
   out.particle_begin.push_back(static_cast<std::uint32_t>(out.particle.size()));
-  out.width_m.push_back(static_cast<float>(width));
 }
 
 void find_stars(std::size_t particles, ContactMesh& out) {

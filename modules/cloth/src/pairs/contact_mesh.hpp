@@ -33,7 +33,6 @@ struct ContactMesh {
   std::vector<Index> particle;                ///< the particles of each leaf, each once, ascending
   std::vector<std::uint32_t> particle_begin;  ///< #leaves + 1
   std::vector<std::size_t> block;             ///< #leaves: its block of particles, or kNoBlock
-  std::vector<float> width_m;                 ///< #leaves: the least height of its triangles at rest
   std::vector<std::uint32_t> star_begin;      ///< #P + 1, offsets into star
   std::vector<std::uint32_t> star;            ///< the triangles of each particle
   std::vector<std::uint32_t> leaf_of;         ///< #faces: the leaf of each triangle

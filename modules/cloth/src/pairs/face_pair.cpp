@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bodice::inline v0_1::cloth {
 namespace {
@@ -50,10 +51,17 @@ Float4 between(const FacePair& p) {
   return unit(to_a) - unit(to_b);
 }
 
-Float4 normal_of(const Face& f, std::span<const Point> at) {
-  const Float4 a = load(at[f.particle[0]]);
-  const Float4 normal = cross(load(at[f.particle[1]]) - a, load(at[f.particle[2]]) - a);
-  return f.turned ? -normal : normal;
+// The normal of a triangle, by twice its area, and the square of its longest edge.
+struct FaceNormal {
+  Float4 normal;
+  float edge2;
+};
+
+FaceNormal normal_of(const Face& f, std::span<const Point> at) {
+  const Float4 a = xyz(load(at[f.particle[0]])), ab = xyz(load(at[f.particle[1]])) - a,
+               ac = xyz(load(at[f.particle[2]])) - a, bc = ac - ab;
+  const Float4 normal = cross(ab, ac);
+  return {f.turned ? -normal : normal, std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)})};
 }
 
 }  // namespace
@@ -76,21 +84,24 @@ bool are_clear(const FacePair& p, float reach_m) {
   return p.common == 0 ? are_apart(p, reach_m) : are_on_sides(p, between(p), reach_m);
 }
 
-float turn_left(const ContactMesh& mesh, std::size_t leaf, std::size_t other, std::span<const Point> at) {
-  Float4 normal[2 * kLeaf], mean = splat(0.0f);
+float flat_for(const ContactMesh& mesh, std::size_t leaf, std::size_t other, std::span<const Point> at) {
+  FaceNormal faces[2 * kLeaf];
+  Float4 mean = splat(0.0f);
   std::size_t count = 0;
-  for (const Face& f : mesh.faces_of(leaf)) mean += normal[count++] = normal_of(f, at);
+  for (const Face& f : mesh.faces_of(leaf)) mean += (faces[count++] = normal_of(f, at)).normal;
   if (other != leaf)
-    for (const Face& f : mesh.faces_of(other)) mean += normal[count++] = normal_of(f, at);
-  float least2 = 1.0f;  // the square of the least cosine
+    for (const Face& f : mesh.faces_of(other)) mean += (faces[count++] = normal_of(f, at)).normal;
+  float cosine2 = 1.0f, height2 = std::numeric_limits<float>::max();  // the least of each
   for (std::size_t k = 0; k < count; ++k) {
-    const float along = dot(normal[k], mean);
+    const float along = dot(faces[k].normal, mean), area2 = dot(faces[k].normal, faces[k].normal);
     if (!(along > 0.0f)) return 0.0f;
-    least2 = std::min(least2, along * along / (dot(normal[k], normal[k]) * dot(mean, mean)));
+    cosine2 = std::min(cosine2, along * along / (area2 * dot(mean, mean)));
+    height2 = std::min(height2, area2 / faces[k].edge2);
   }
-  if (!(least2 >= kFlat2)) return 0.0f;
-  // The sine of what is left, by that of a difference of angles.
-  return kSinMost * std::sqrt(least2) - kCosMost * std::sqrt(1.0f - least2);
+  if (!(cosine2 >= kFlat2)) return 0.0f;
+  // The sine of the angle that is left, by that of a difference of angles.
+  const float sine = kSinMost * std::sqrt(cosine2) - kCosMost * std::sqrt(1.0f - cosine2);
+  return sine * std::sqrt(height2);
 }
 
 }  // namespace bodice::cloth

@@ -19,11 +19,12 @@ FacePair face_pair(const Face& a, const Face& b, std::span<const Point> at);
 /// with a common edge are taken for no slivers.
 bool are_clear(const FacePair& pair, float reach_m);
 
-/// How much farther the normals of two joined leaves (are_joined()) may turn before these can touch each
-/// other: the sine of that angle. Zero where the leaves are not flat now: a flat patch has all normals within
-/// an angle of their mean. Based on: Pascal Volino, Nadia Magnenat-Thalmann. Efficient Self-Collision
+/// How far the parts of two joined leaves (are_joined()) may move against each other, meters, before the
+/// leaves can touch each other by turning. Zero where they are not flat now: a flat patch has all normals
+/// within an angle of their mean. It may still lie over itself where triangles between its own, of other
+/// leaves, have turned over. Based on: Pascal Volino, Nadia Magnenat-Thalmann. Efficient Self-Collision
 /// Detection on Smoothly Discretized Surface Animations using Geometrical Shape Regularity. 1994. Differs:
 /// outlines are not tested, because a flat patch of so few triangles does not wind around itself.
-float turn_left(const ContactMesh& mesh, std::size_t leaf, std::size_t other, std::span<const Point> at);
+float flat_for(const ContactMesh& mesh, std::size_t leaf, std::size_t other, std::span<const Point> at);
 
 }  // namespace bodice::cloth

@@ -1,6 +1,7 @@
 #include "pairs/pairs.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -13,6 +14,8 @@ namespace bodice::inline v0_1::cloth {
 namespace {
 
 constexpr std::size_t kLeavesATask = 32;
+// One worker ends the groups of so many tasks, which takes about as long as to begin a task of the engine.
+constexpr std::size_t kTasksTogether = 16;
 // Room for pairs at first, of all tasks and of each, so that few frames need more; unused room costs nothing.
 constexpr std::size_t kPairsAtFirst = 65536, kFewPairs = 2048;
 // Pairs out of use that a task keeps besides half as many as are in use.
@@ -135,9 +138,10 @@ void find_groups(const engine::Context& context, const ContactMesh& mesh, const 
 void find_pairs(const ContactMesh& mesh, const PairSearch& search, PairGroup& group, PairTask& task) {
   const auto [leaf, other] = group.leaf;
   if (group.joined) {
-    const float turn_m =
-        std::min(mesh.width_m[leaf], mesh.width_m[other]) * turn_left(mesh, leaf, other, search.at);
-    if (turn_m > search.step_m) return clear_pairs(turn_m, group, task);
+    const float flat_m = flat_for(mesh, leaf, other, search.at);
+    group.folded = !(flat_m > 0.0f);
+    group.spared = flat_m > search.step_m && !search.is_folded(group);
+    if (group.spared) return clear_pairs(flat_m, group, task);
   }
   const FaceBoxes boxes(mesh, search.at, leaf, other);
   const float room_m = group.joined ? 0.0f : boxes.distance() - search.gap_m;
@@ -158,6 +162,20 @@ void clear_pairs(float room_m, PairGroup& group, PairTask& task) {
   task.used -= group.end - group.begin;
   group.begin = group.end = 0;
   group.next_m = group.find_m = group.travel_m + room_m;
+}
+
+void end_groups(const engine::Context& context, std::vector<PairTask>& tasks,
+                std::span<std::uint8_t> folded) {
+  std::ranges::fill(folded, std::uint8_t{0});
+  engine::parallel_for(context, tasks.size(), kTasksTogether, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t)
+      for (PairGroup& group : tasks[t].groups) {
+        group.travel_m += group.step_m;
+        if (!group.folded) continue;
+        for (const std::uint32_t leaf : group.leaf)
+          std::atomic_ref(folded[leaf]).store(1, std::memory_order_relaxed);
+      }
+  });
 }
 
 void tidy(PairTask& task) {

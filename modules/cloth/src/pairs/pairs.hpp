@@ -36,6 +36,8 @@ struct PairGroup {
   float next_m = 0.0f;    ///< travel up to which none of its pairs is nearer than its gap
   float find_m = 0.0f;    ///< travel up to which it has no other pairs that may be
   bool joined = false;    ///< are_joined()
+  bool folded = false;    ///< whether its patch was not flat when it was last looked at (flat_for())
+  bool spared = false;    ///< whether it has no pairs because its patch was
   bool inside = false;    ///< whether all of its particles are in one block
   bool fresh = false;     ///< whether its pairs' contacts are those of this substep
 };
@@ -95,6 +97,13 @@ struct PairSearch {
   float slack_m = 0.0f;       ///< how far leaves may move against each other until pairs are found anew
   float step_m = 0.0f;        ///< how far they move in this substep
   std::span<const Point> at;  ///< #P: positions
+  /// #leaves: those with a folded group. Between their triangles some may have turned over, so that no group
+  /// of them is spared.
+  std::span<const std::uint8_t> folded;
+
+  bool is_folded(const PairGroup& group) const {
+    return (folded[group.leaf[0]] | folded[group.leaf[1]]) != 0;
+  }
 };
 
 /// Finds the pairs of a group that may be nearer than the gap before its leaves have moved by the slack.
@@ -103,6 +112,9 @@ void find_pairs(const ContactMesh& mesh, const PairSearch& search, PairGroup& gr
 /// Drops the pairs of a group with leaves that may move by `room_m` against each other until any is as near
 /// as the gap.
 void clear_pairs(float room_m, PairGroup& group, PairTask& task);
+
+/// Ends a substep: adds its steps to the travel of all groups, and notes the leaves with folded groups.
+void end_groups(const engine::Context& context, std::vector<PairTask>& tasks, std::span<std::uint8_t> folded);
 
 /// Removes pairs that are no longer used, where these are many. Positions of pairs in the list change.
 void tidy(PairTask& task);

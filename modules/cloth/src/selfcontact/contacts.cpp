@@ -21,8 +21,8 @@ constexpr int kPushes = 2;  // sweeps over the contacts of a substep
 // contact move to and fro then keeps its pairs of leaves for several substeps.
 constexpr float kAhead = 1.5f;
 
-// Parts nearer than this, a tenth of a micrometer, have no normal. Such parts are at the same point in a
-// file.
+// Parts nearer than this, a tenth of a micrometer, have no normal. Parts that are so at rest are at the same
+// point in a file.
 constexpr float kTouching_m = 1e-7f;
 
 // The least distance to keep, a share of the gap, of parts that are nearer at rest.
@@ -38,6 +38,7 @@ constexpr float kTouchingMass = 8.0f;
 
 float gap_of(const ContactSource& source, const Pair& pair) {
   const float at_rest = std::sqrt(closest(pair.edges, corners_of(pair.particle, source.rest)).length2);
+  if (!(at_rest > kTouching_m)) return 0.0f;
   return std::clamp(at_rest, kLeastOfGap * source.search.gap_m, source.search.gap_m);
 }
 
@@ -50,7 +51,7 @@ void refresh_group(const ContactSource& source, float step_m, PairGroup& group, 
     pair.contact = kNoContact;
     if (!(pair.until_m > group.travel_m + step_m)) {
       const PairContact contact = contact_of(source, pair);
-      pair.until_m = contact.gap_m > 0.0f ? group.travel_m + contact.apart_m - contact.gap_m : kNoPath_m;
+      pair.until_m = pair.gap_m == 0.0f ? kNoPath_m : group.travel_m + contact.apart_m - contact.gap_m;
       if (are_loose(pair.particle, pair.edges, source.loose)) {
         pair.until_m = std::min(pair.until_m, group.travel_m);  // it is looked at again when it no longer is
       } else if (pair.until_m < group.travel_m + step_m) {
@@ -127,20 +128,22 @@ void find_moves(const engine::Context& context, const ContactMesh& mesh, std::sp
 PairContact contact_of(const ContactSource& source, Pair& pair) {
   const Closest c = closest(pair.edges, corners_of(pair.particle, source.search.at));
   const float apart_m = std::sqrt(c.length2);
-  if (!(apart_m > kTouching_m)) pair.gap_m = 0.0f;
   if (pair.gap_m == kUnsettled && apart_m < source.search.gap_m) pair.gap_m = gap_of(source, pair);
+  float gap_m = pair.gap_m == kUnsettled ? source.search.gap_m : pair.gap_m;
+  if (!(apart_m > kTouching_m)) gap_m = 0.0f;
   PairContact contact{.weight = c.weight,
                       .normal = c.apart / (apart_m + kTouching_m * kTouching_m),
                       .particle = {},
                       .apart_m = apart_m,
-                      .gap_m = pair.gap_m == kUnsettled ? source.search.gap_m : pair.gap_m,
+                      .gap_m = gap_m,
                       .edges = pair.edges};
   std::ranges::copy(pair.particle, contact.particle);
   return contact;
 }
 
 void keep_pairs(const ContactSource& source, float step_m, PairGroup& group, PairTask& task) {
-  if (!(group.travel_m + step_m > group.find_m)) return;
+  const bool kept = !(group.travel_m + step_m > group.find_m);
+  if (kept && !(group.spared && source.search.is_folded(group))) return;
   PairSearch search = source.search;
   search.slack_m = std::max(search.slack_m, kAhead * step_m), search.step_m = step_m;
   group.fresh = false;

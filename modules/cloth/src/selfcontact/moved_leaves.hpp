@@ -1,5 +1,6 @@
 // The leaves with particles that moved since crossings were last counted, and the tasks with groups of these.
-// Few particles move in a round of corrections, and a pass over all tasks would cost more than the corrections.
+// Few particles move in a round of corrections, and a pass over all tasks would cost more than the
+// corrections.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +13,14 @@ namespace bodice::inline v0_1::cloth {
 
 /// The leaves that moved, and an index of the tasks of all leaves.
 struct MovedLeaves {
-  std::vector<std::uint8_t> is_moved;     ///< #leaves
-  std::vector<std::uint32_t> leaves;      ///< those that are, each once
-  bool indexed = false;                   ///< whether the index belongs to the present groups
-  std::vector<std::uint32_t> begin;       ///< #leaves + 1: offsets into `tasks`
-  std::vector<std::uint32_t> tasks;       ///< those with groups of each leaf
-  std::vector<std::uint32_t> last_task;   ///< #leaves: room to index
-  std::vector<std::uint8_t> is_chosen;    ///< #tasks: room for tasks_of_moved(), all zero between calls
-  std::vector<std::uint32_t> chosen;      ///< the result of tasks_of_moved()
+  std::vector<std::uint8_t> is_moved;    ///< #leaves
+  std::vector<std::uint32_t> leaves;     ///< those that are, each once
+  bool indexed = false;                  ///< whether the index belongs to the present groups
+  std::vector<std::uint32_t> begin;      ///< #leaves + 1: offsets into `tasks`
+  std::vector<std::uint32_t> tasks;      ///< those with groups of each leaf
+  std::vector<std::uint32_t> last_task;  ///< #leaves: room to index
+  std::vector<std::uint8_t> is_chosen;   ///< #tasks: room for tasks_of_moved(), all zero between calls
+  std::vector<std::uint32_t> chosen;     ///< the result of tasks_of_moved()
 
   bool has_moved(const PairGroup& group) const {
     return (is_moved[group.leaf[0]] | is_moved[group.leaf[1]]) != 0;

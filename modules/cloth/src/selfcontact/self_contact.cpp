@@ -51,10 +51,6 @@ constexpr int kGuardings = 4;
 // fifth more skin shows between coarse triangles, with a half more layers cross.
 constexpr float kYieldedShare = 0.3f;
 
-// One worker adds travel to the groups of so many tasks, which takes about as long as to begin a task of the
-// engine.
-constexpr std::size_t kTasksTogether = 16;
-
 // All groups are listed anew in a frame that begins with more than so many of strayed particles a leaf.
 constexpr std::size_t kMostListedALeaf = 1;
 
@@ -87,7 +83,7 @@ void keep_groups(const engine::Context& context, const SelfSubstep& substep, std
 }
 
 ContactSource source_of(const SelfContact& s) {
-  return {s.mesh, {s.gap_m, s.slack_m, 0.0f, s.before}, s.rest, s.moves, s.loose.is_loose};
+  return {s.mesh, {s.gap_m, s.slack_m, 0.0f, s.before, s.folded}, s.rest, s.moves, s.loose.is_loose};
 }
 
 void copy_points(const engine::Context& context, const Particles& p, std::vector<Point>& to) {
@@ -226,7 +222,7 @@ SelfContact make_self_contact(const geometry::TriMesh& mesh, const Particles& p,
   s.tasks = make_pair_tasks(s.mesh);
   s.zones = make_zones(p.count());
   s.loose = make_loose(p.count());
-  s.moves.resize(s.mesh.leaves());
+  s.moves.resize(s.mesh.leaves()), s.folded.resize(s.mesh.leaves());
   s.moved_leaves = make_moved_leaves(s.mesh, s.tasks.size());
   s.strayed = make_strayed_leaves(p.count(), s.mesh);
   s.moved.reserve(p.count()), s.beyond_m.resize(p.count());
@@ -282,10 +278,7 @@ void hold_apart(const engine::Context& context, const SelfSubstep& substep, cons
     take_points(substep.length_s, s.now, p);
   }
   if (add_pressed(s.mesh, s.tasks, s.now, s.tangles)) loosen(s.mesh, s.tangles, s.loose);
-  engine::parallel_for(context, s.tasks.size(), kTasksTogether, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t)
-      for (PairGroup& group : s.tasks[t].groups) group.travel_m += group.step_m;
-  });
+  end_groups(context, s.tasks, s.folded);
   s.since_s += substep.length_s;
   follow_drift(context, substep.length_s, s);
   std::swap(s.before, s.now);

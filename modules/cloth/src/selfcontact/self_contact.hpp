@@ -42,8 +42,9 @@ struct SelfContact {
   std::vector<Point> found, ahead;  ///< #P: positions at the last search, and displacements expected then
   std::vector<float> beyond_m;      ///< #P: how far from there a particle may be beyond what all are allowed
   StrayedLeaves strayed;
-  std::vector<Point> drift;     ///< #P: smoothed velocities, meters a second
-  std::vector<LeafMove> moves;  ///< #leaves
+  std::vector<Point> drift;          ///< #P: smoothed velocities, meters a second
+  std::vector<LeafMove> moves;       ///< #leaves
+  std::vector<std::uint8_t> folded;  ///< as PairSearch::folded, when the substep began
   Zones zones;
   float ahead_s = 0.0f, since_s = 0.0f;  ///< the time of these displacements; that since the search
   Vec3 origin = Vec3::Zero();            ///< that of the particles' frame at the last search

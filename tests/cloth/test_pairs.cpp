@@ -1,0 +1,93 @@
+// Pairs of parts that may touch: what is looked at again, and what is spared.
+#include <doctest/doctest.h>
+
+#include "layer_fixtures.hpp"
+#include "selfcontact/contacts.hpp"
+
+using namespace bodice;
+using namespace bodice_test;
+
+namespace {
+
+constexpr float kGap_m = 1.5e-3f;
+
+/// A strip of 2 x 4 quads in two leaves, turned about the line between them, and the group of both.
+struct Strip {
+  cloth::ContactMesh mesh;
+  std::vector<cloth::Point> at;
+  std::vector<cloth::PairTask> tasks;
+  std::vector<cloth::LeafMove> moves;
+  std::vector<std::uint8_t> folded, loose;
+
+  explicit Strip(double angle) {
+    const TriMesh strip = surface(2, 4, false, [&](double u, double v) {
+      const double out = std::abs(v - 0.5);
+      return v < 0.5 ? Vec3(u, 0, -out) : Vec3(u, out * std::sin(angle), out * std::cos(angle));
+    });
+    mesh = cloth::make_contact_mesh(strip);
+    REQUIRE(mesh.leaves() == 2);
+    for (const Vec3& p : strip.positions)
+      at.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), 1.0f});
+    tasks.resize(1);
+    tasks[0].groups.push_back(cloth::new_group(mesh, 0, 1, 0.0f));
+    moves.resize(2), folded.resize(2), loose.resize(at.size());
+    cloth::find_moves({}, mesh, at, at, moves);
+  }
+
+  cloth::PairGroup& group() { return tasks[0].groups[0]; }
+  void keep(float step_m) {
+    // Quads are a quarter long, so that this gap makes pairs of neighbors.
+    const cloth::ContactSource source{mesh, {0.25f, 0.1f, 0.0f, at, folded}, at, moves, loose};
+    cloth::keep_pairs(source, step_m, group(), tasks[0]);
+  }
+  bool has_pairs() { return group().end > group().begin; }
+};
+
+}  // namespace
+
+TEST_CASE("pairs: parts that touch are in contact again once they are apart, unless they coincide at rest") {
+  const cloth::ContactMesh mesh;
+  const std::vector<cloth::Point> apart = {{-1, 0, 0, 1}, {1, 0, 0, 1}, {0, 1e-4f, -1, 1}, {0, 1e-4f, 1, 1}},
+                                  touching = {{-1, 0, 0, 1}, {1, 0, 0, 1}, {0, 0, -1, 1}, {0, 0, 1, 1}};
+  const auto source = [&](const std::vector<cloth::Point>& at, const std::vector<cloth::Point>& rest) {
+    return cloth::ContactSource{mesh, {kGap_m, 0.0f, 0.0f, at, {}}, rest, {}, {}};
+  };
+  cloth::Pair pair{.particle = {0, 1, 2, 3}, .edges = true};
+  CHECK(cloth::contact_of(source(touching, apart), pair).gap_m == 0.0f);
+  CHECK(cloth::contact_of(source(apart, apart), pair).gap_m == doctest::Approx(1e-4));
+  cloth::Pair coincident{.particle = {0, 1, 2, 3}, .edges = true};
+  CHECK(cloth::contact_of(source(touching, touching), coincident).gap_m == 0.0f);
+  CHECK(cloth::contact_of(source(apart, touching), coincident).gap_m == 0.0f);
+}
+
+TEST_CASE("pairs: a flat patch has none until it may have turned") {
+  Strip strip(0.0);
+  strip.keep(1e-3f);
+  CHECK(strip.group().spared);
+  CHECK_FALSE(strip.has_pairs());
+  // A turn by 75 degrees takes a path of the triangles' height by its sine.
+  const double height_m = 0.5 * 0.25 / std::hypot(0.5, 0.25);
+  CHECK(double{strip.group().find_m} ==
+        doctest::Approx(height_m * std::sin(75.0 * std::numbers::pi / 180.0)).epsilon(1e-4));
+}
+
+TEST_CASE("pairs: a flat patch has pairs as soon as one beside it is folded") {
+  Strip strip(0.0);
+  strip.keep(1e-3f);
+  REQUIRE(strip.group().spared);
+  strip.folded[1] = 1;
+  strip.keep(1e-3f);
+  CHECK_FALSE(strip.group().spared);
+  CHECK(strip.has_pairs());
+}
+
+TEST_CASE("pairs: the leaves of a folded patch are noted when a substep ends, and no others") {
+  for (const double degrees : {0.0, 150.0}) {
+    CAPTURE(degrees);
+    Strip strip(degrees * std::numbers::pi / 180.0);
+    strip.folded = {1, 1};
+    strip.keep(1e-3f);
+    cloth::end_groups({}, strip.tasks, strip.folded);
+    CHECK(strip.folded == std::vector<std::uint8_t>(2, degrees > 120.0));
+  }
+}
