@@ -1,7 +1,6 @@
 #include "pairs/pairs.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -114,7 +113,7 @@ std::vector<PairTask> make_pair_tasks(const ContactMesh& mesh) {
     task.pairs.reserve(pairs), task.spare.reserve(pairs);
     task.groups.reserve(pairs / 2), task.groups_before.reserve(pairs / 2), task.near.reserve(pairs / 2);
     task.crossing.reserve(pairs / 4), task.pressed.reserve(pairs / 4);
-    task.held.reserve(pairs / 4);
+    task.held.reserve(pairs / 4), task.folded.reserve(pairs);
     for (auto& contacts : task.contacts) contacts.reserve(pairs);
   }
   return tasks;
@@ -166,16 +165,18 @@ void clear_pairs(float room_m, PairGroup& group, PairTask& task) {
 
 void end_groups(const engine::Context& context, std::vector<PairTask>& tasks,
                 std::span<std::uint8_t> folded) {
-  std::ranges::fill(folded, std::uint8_t{0});
   engine::parallel_for(context, tasks.size(), kTasksTogether, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t)
-      for (PairGroup& group : tasks[t].groups) {
+    for (PairTask& task : std::span(tasks).subspan(begin, end - begin)) {
+      task.folded.clear();
+      for (PairGroup& group : task.groups) {
         group.travel_m += group.step_m;
-        if (!group.folded) continue;
-        for (const std::uint32_t leaf : group.leaf)
-          std::atomic_ref(folded[leaf]).store(1, std::memory_order_relaxed);
+        if (group.folded) task.folded.insert(task.folded.end(), {group.leaf[0], group.leaf[1]});
       }
+    }
   });
+  std::ranges::fill(folded, std::uint8_t{0});
+  for (const PairTask& task : tasks)
+    for (const std::uint32_t leaf : task.folded) folded[leaf] = 1;
 }
 
 void tidy(PairTask& task) {

@@ -77,6 +77,7 @@ struct PairTask {
   std::vector<std::uint32_t> crossing;  ///< pairs that would cross in this substep
   std::vector<Pair> pressed;            ///< pairs that would, and may, because nothing can part them
   std::vector<PairContact> held;        ///< contacts of all pairs that would have crossed in it
+  std::vector<std::uint32_t> folded;    ///< leaves of folded groups when it ended, some several times
 };
 
 /// The tasks of a garment.
