@@ -13,13 +13,6 @@ namespace {
 
 // What remains of a pair's distance after a substep at least: this share of it, or of its gap.
 constexpr float kKept = 0.2f, kKeptOfGap = 0.02f;
-// Pairs nearer than 20 micrometers keep this share. With the smaller one, cloth that is crushed for some
-// substeps would come nearer than floats can distinguish sides.
-constexpr float kNear_m = 2e-5f, kKeptNear = 0.9f;
-
-float kept_of(const PairContact& c) {
-  return c.apart_m < kNear_m ? kKeptNear : kKept;
-}
 
 // The distance that pairs which would cross are pushed apart to, a share of their gap.
 constexpr float kHeldOfGap = 0.1f;
@@ -60,7 +53,7 @@ bool can_be_parted(const PairContact& c, const CrossingSearch& how) {
 }
 
 bool would_cross(const PairContact& c, const ContactSource& source, std::span<const Point> now) {
-  const float least_m = std::min(kept_of(c) * c.apart_m, kKeptOfGap * c.gap_m);
+  const float least_m = std::min(kKept * c.apart_m, kKeptOfGap * c.gap_m);
   const Corners to = corners_of(c.particle, now);
   if (separation(c.edges, to, c.normal) > least_m) return false;
   const Corners from = corners_of(c.particle, source.search.at);
@@ -93,7 +86,7 @@ void find_crossing_in(const ContactSource& source, const CrossingSearch& how, Pa
     if (pair.until_m > group.travel_m + step_m) continue;
     if (are_loose(pair.particle, pair.edges, source.loose)) continue;
     const PairContact& contact = known_contact(source, group, pair, task);
-    if (!(contact.gap_m > 0.0f) || step_m < (1.0f - kept_of(contact)) * contact.apart_m) continue;
+    if (!(contact.gap_m > 0.0f) || step_m < (1.0f - kKept) * contact.apart_m) continue;
     if (!would_cross(contact, source, how.now)) continue;
     if (!can_be_parted(contact, how)) {
       task.pressed.push_back(pair);
