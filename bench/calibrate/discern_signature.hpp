@@ -9,7 +9,7 @@ namespace calibrate {
 struct Candidate {
   Eigen::VectorXd features;
   Vec3 off;               ///< from the true landmark; fractions of the body size
-  double area = 0.0;      ///< of the skin around it; a fraction of the squared body size
+  double area = 0.0;      ///< area of the skin around it; a fraction of the squared body size
   double handicap = 0.0;  ///< how many deviations the search counts it nearer to the signature than it is
 };
 

@@ -7,6 +7,7 @@
 
 #include <bodice/geometry/crossings.hpp>
 
+#include "base/particles.hpp"
 #include "face_fixtures.hpp"
 
 namespace bodice_test {
@@ -42,6 +43,24 @@ inline TriMesh surface(int columns, int rows, bool closed, const std::function<V
     }
   return mesh;
 }
+
+inline std::vector<cloth::Point> points_of(const std::vector<Vec3>& positions) {
+  std::vector<cloth::Point> at;
+  for (const Vec3& p : positions)
+    at.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), 0.0f});
+  return at;
+}
+
+/// A strip of 2 x 4 quads. Its second half is turned about the line between the halves.
+inline TriMesh folded_strip(double angle) {
+  return surface(2, 4, false, [&](double u, double v) {
+    const double out = std::abs(v - 0.5);
+    return v < 0.5 ? Vec3(u, 0, -out) : Vec3(u, out * std::sin(angle), out * std::cos(angle));
+  });
+}
+
+/// The least height of its triangles.
+inline const double kStripHeight_m = 0.5 * 0.25 / std::hypot(0.5, 0.25);
 
 inline Vec3 around(double turns, double radius, double height) {
   const double angle = 2.0 * std::numbers::pi * turns;

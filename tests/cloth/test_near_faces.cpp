@@ -13,21 +13,6 @@ using namespace bodice_test;
 
 namespace {
 
-std::vector<cloth::Point> points_of(const std::vector<Vec3>& positions) {
-  std::vector<cloth::Point> at;
-  for (const Vec3& p : positions)
-    at.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), 0.0f});
-  return at;
-}
-
-/// A strip of 2 x 4 quads. Its second half is turned about the line between the halves.
-TriMesh folded_strip(double angle) {
-  return surface(2, 4, false, [&](double u, double v) {
-    const double out = std::abs(v - 0.5);
-    return v < 0.5 ? Vec3(u, 0, -out) : Vec3(u, out * std::sin(angle), out * std::cos(angle));
-  });
-}
-
 Eigen::AlignedBox3d box_of(const cloth::Face& face, std::span<const cloth::Point> at) {
   Eigen::AlignedBox3d box;
   for (const Index i : face.particle) box.extend(Eigen::Vector3f(at[i].x, at[i].y, at[i].z).cast<double>());
@@ -46,9 +31,8 @@ TEST_CASE(
     const cloth::ContactMesh leaves = cloth::make_contact_mesh(mesh);
     REQUIRE(leaves.leaves() == 2);
     const float left_m = cloth::flat_for(leaves, 0, 1, points_of(mesh.positions));
-    const double height_m = 0.5 * 0.25 / std::hypot(0.5, 0.25);
     const double wanted =
-        degrees > 120.0 ? 0.0 : height_m * std::sin((75.0 - degrees / 2) * std::numbers::pi / 180.0);
+        degrees > 120.0 ? 0.0 : kStripHeight_m * std::sin((75.0 - degrees / 2) * std::numbers::pi / 180.0);
     CHECK(double{left_m} == doctest::Approx(wanted).epsilon(1e-4));
   }
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kGap_m = 1.5e-3f;
 
-/// A strip of 2 x 4 quads in two leaves, turned about the line between them, and the group of both.
+/// The strip of two leaves, and the group of both.
 struct Strip {
   cloth::ContactMesh mesh;
   std::vector<cloth::Point> at;
@@ -20,14 +20,10 @@ struct Strip {
   std::vector<std::uint8_t> folded, loose;
 
   explicit Strip(double angle) {
-    const TriMesh strip = surface(2, 4, false, [&](double u, double v) {
-      const double out = std::abs(v - 0.5);
-      return v < 0.5 ? Vec3(u, 0, -out) : Vec3(u, out * std::sin(angle), out * std::cos(angle));
-    });
+    const TriMesh strip = folded_strip(angle);
     mesh = cloth::make_contact_mesh(strip);
     REQUIRE(mesh.leaves() == 2);
-    for (const Vec3& p : strip.positions)
-      at.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), 1.0f});
+    at = points_of(strip.positions);
     tasks.resize(1);
     tasks[0].groups.push_back(cloth::new_group(mesh, 0, 1, 0.0f));
     moves.resize(2), folded.resize(2), loose.resize(at.size());
@@ -66,9 +62,8 @@ TEST_CASE("pairs: a flat patch has none until it may have turned") {
   CHECK(strip.group().spared);
   CHECK_FALSE(strip.has_pairs());
   // A turn by 75 degrees takes a path of the triangles' height by its sine.
-  const double height_m = 0.5 * 0.25 / std::hypot(0.5, 0.25);
   CHECK(double{strip.group().find_m} ==
-        doctest::Approx(height_m * std::sin(75.0 * std::numbers::pi / 180.0)).epsilon(1e-4));
+        doctest::Approx(kStripHeight_m * std::sin(75.0 * std::numbers::pi / 180.0)).epsilon(1e-4));
 }
 
 TEST_CASE("pairs: a flat patch has pairs as soon as one beside it is folded") {

@@ -195,15 +195,14 @@ Anatomy carry_out(const engine::Context& context, const ThinCopy& thin, const An
   const auto middle = [&](LandmarkId left, LandmarkId right) {
     return Vec3(0.5 * (mark(left).position + mark(right).position));
   };
-  out.stature_m =
-      stature_of({mark(LandmarkId::kCrown).position,
-                  mark(LandmarkId::kNeck).position,
-                  mark(LandmarkId::kPerineum).position,
-                  middle(LandmarkId::kKneeL, LandmarkId::kKneeR),
-                  middle(LandmarkId::kAnkleL, LandmarkId::kAnkleR),
-                  {mark(LandmarkId::kToeL).position, mark(LandmarkId::kToeR).position}},
-                 skin.positions,
-                 upright_height(out).value_or(found.stature_m + 2.0 * thin.depth));  // sole and crown
+  const double by_copy_m = found.stature_m + 2.0 * thin.depth;  // The copy lacks its depth at sole and crown.
+  out.stature_m = stature_of({mark(LandmarkId::kCrown).position,
+                              mark(LandmarkId::kNeck).position,
+                              mark(LandmarkId::kPerineum).position,
+                              middle(LandmarkId::kKneeL, LandmarkId::kKneeR),
+                              middle(LandmarkId::kAnkleL, LandmarkId::kAnkleR),
+                              {mark(LandmarkId::kToeL).position, mark(LandmarkId::kToeR).position}},
+                             skin.positions, upright_height(out).value_or(by_copy_m));
   return out;
 }
 

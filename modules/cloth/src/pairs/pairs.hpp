@@ -98,8 +98,8 @@ struct PairSearch {
   float slack_m = 0.0f;       ///< how far leaves may move against each other until pairs are found anew
   float step_m = 0.0f;        ///< how far they move in this substep
   std::span<const Point> at;  ///< #P: positions
-  /// #leaves: those with a folded group. Between their triangles some may have turned over, so that no group
-  /// of them is spared.
+  /// #leaves: 1 for a leaf with a folded group. Triangles between its own may have turned over, so that its
+  /// groups are not spared.
   std::span<const std::uint8_t> folded;
 
   bool is_folded(const PairGroup& group) const {

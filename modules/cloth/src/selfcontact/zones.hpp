@@ -46,8 +46,8 @@ struct CrossingSearch {
 std::size_t find_crossing(const engine::Context& context, const ContactSource& source,
                           const CrossingSearch& how, std::vector<PairTask>& tasks);
 
-/// Lists those of leaves that moved, and adds the pairs that may cross to those of before; returns the number
-/// of the former. The cost is that of the tasks with such leaves.
+/// Lists the pairs of moved leaves that would cross, and returns their number. Pairs that may cross are added
+/// to those found before. It costs as much as all groups in tasks with such leaves.
 std::size_t find_crossing_again(const engine::Context& context, const ContactSource& source,
                                 const CrossingSearch& how, MovedLeaves& moved, std::vector<PairTask>& tasks);
 
