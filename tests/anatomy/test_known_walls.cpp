@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analyze/known_walls.hpp"
+#include "walls/known_walls.hpp"
 
 using namespace bodice;
 using body::LandmarkId;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analyze/limb_walls.hpp"
+#include "walls/limb_walls.hpp"
 
 using namespace bodice;
 using geometry::Vec3;

@@ -12,11 +12,11 @@
 #include "analyze/expected_folds.hpp"
 #include "analyze/folds_hidden.hpp"
 #include "analyze/thin_copy.hpp"
-#include "analyze/webs.hpp"
 #include "analyze/weld_signs.hpp"
 #include "check/fold_levels.hpp"
 #include "check/named_folds.hpp"
 #include "check/thighs.hpp"
+#include "walls/webs.hpp"
 
 namespace bodice::inline v0_1::anatomy {
 namespace {

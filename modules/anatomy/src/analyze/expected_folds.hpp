@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "analyze/webs.hpp"
+#include "walls/webs.hpp"
 
 namespace bodice::inline v0_1::anatomy {
 

@@ -9,10 +9,10 @@
 #include <bodice/geometry/mesh_edges.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 
-#include "analyze/known_walls.hpp"
-#include "analyze/limb_walls.hpp"
 #include "analyze/upright_height.hpp"
 #include "landmarks/stature.hpp"
+#include "walls/known_walls.hpp"
+#include "walls/limb_walls.hpp"
 
 namespace bodice::inline v0_1::anatomy {
 namespace {

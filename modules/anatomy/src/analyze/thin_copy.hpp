@@ -10,7 +10,7 @@
 #include <bodice/geometry/contour.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
 
-#include "analyze/webs.hpp"
+#include "walls/webs.hpp"
 
 namespace bodice::inline v0_1::anatomy {
 

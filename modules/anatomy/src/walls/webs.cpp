@@ -1,4 +1,4 @@
-#include "analyze/webs.hpp"
+#include "walls/webs.hpp"
 
 #include <algorithm>
 #include <array>

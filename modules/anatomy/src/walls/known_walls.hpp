@@ -7,7 +7,7 @@
 
 #include <bodice/geometry/contour.hpp>
 
-#include "analyze/webs.hpp"
+#include "walls/webs.hpp"
 
 namespace bodice::inline v0_1::anatomy {
 

@@ -1,7 +1,7 @@
 // Which tracks of a body that stands are its arms and its legs.
 #pragma once
 
-#include "analyze/limb_tracks.hpp"
+#include "walls/limb_tracks.hpp"
 
 namespace bodice::inline v0_1::anatomy {
 

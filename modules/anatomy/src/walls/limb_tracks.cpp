@@ -1,6 +1,6 @@
 // Based on: Luc Vincent, Pierre Soille. Watersheds in digital spaces: an efficient algorithm based on
 // immersion simulations. 1991. Differs: basins join unless the neck between them is shallow, slice by slice.
-#include "analyze/limb_tracks.hpp"
+#include "walls/limb_tracks.hpp"
 
 #include <map>
 #include <utility>

@@ -1,10 +1,10 @@
-#include "analyze/limb_walls.hpp"
+#include "walls/limb_walls.hpp"
 
 #include <map>
 #include <utility>
 
-#include "analyze/limb_follow.hpp"
-#include "analyze/limb_kind.hpp"
+#include "walls/limb_follow.hpp"
+#include "walls/limb_kind.hpp"
 
 namespace bodice::inline v0_1::anatomy {
 namespace {

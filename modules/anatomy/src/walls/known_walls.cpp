@@ -1,6 +1,6 @@
 // Based on: Fernand Meyer. Topographic distance and watershed lines. 1994. Differs: floods of depths in three
 // dimensions, and walls only where limbs may be apart.
-#include "analyze/known_walls.hpp"
+#include "walls/known_walls.hpp"
 
 #include <algorithm>
 #include <cmath>

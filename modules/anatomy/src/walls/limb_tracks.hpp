@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "analyze/slices.hpp"
+#include "walls/slices.hpp"
 
 namespace bodice::inline v0_1::anatomy {
 

@@ -1,7 +1,7 @@
 // Limbs followed to where the slices no longer show them.
 #pragma once
 
-#include "analyze/limb_tracks.hpp"
+#include "walls/limb_tracks.hpp"
 
 namespace bodice::inline v0_1::anatomy {
 

@@ -1,9 +1,9 @@
-#include "analyze/limb_follow.hpp"
+#include "walls/limb_follow.hpp"
 
 #include <array>
 #include <cmath>
 
-#include "analyze/limb_kind.hpp"
+#include "walls/limb_kind.hpp"
 
 namespace bodice::inline v0_1::anatomy {
 namespace {
