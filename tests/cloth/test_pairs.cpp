@@ -17,6 +17,7 @@ struct Strip {
   std::vector<cloth::Point> at;
   std::vector<cloth::PairTask> tasks;
   std::vector<cloth::LeafMove> moves;
+  std::vector<float> off_m;
   std::vector<std::uint8_t> folded, loose;
 
   explicit Strip(double angle) {
@@ -26,14 +27,14 @@ struct Strip {
     at = points_of(strip.positions);
     tasks.resize(1);
     tasks[0].groups.push_back(cloth::new_group(mesh, 0, 1, 0.0f));
-    moves.resize(2), folded.resize(2), loose.resize(at.size());
-    cloth::find_moves({}, mesh, at, at, moves);
+    for (const std::size_t leaf : {0, 1}) moves.push_back(cloth::move_of(mesh, leaf, at, at));
+    off_m.resize(2), folded.resize(2), loose.resize(at.size());
   }
 
   cloth::PairGroup& group() { return tasks[0].groups[0]; }
   void keep(float step_m) {
     // Quads are a quarter long, so that this gap makes pairs of neighbors.
-    const cloth::ContactSource source{mesh, {0.25f, 0.1f, 0.0f, at, folded}, at, moves, loose};
+    const cloth::ContactSource source{mesh, {0.25f, 0.1f, 0.0f, at, folded}, at, moves, off_m, loose};
     cloth::keep_pairs(source, step_m, group(), tasks[0]);
   }
   bool has_pairs() { return group().end > group().begin; }
@@ -46,7 +47,7 @@ TEST_CASE("pairs: parts that touch are in contact again once they are apart, unl
   const std::vector<cloth::Point> apart = {{-1, 0, 0, 1}, {1, 0, 0, 1}, {0, 1e-4f, -1, 1}, {0, 1e-4f, 1, 1}},
                                   touching = {{-1, 0, 0, 1}, {1, 0, 0, 1}, {0, 0, -1, 1}, {0, 0, 1, 1}};
   const auto source = [&](const std::vector<cloth::Point>& at, const std::vector<cloth::Point>& rest) {
-    return cloth::ContactSource{mesh, {kGap_m, 0.0f, 0.0f, at, {}}, rest, {}, {}};
+    return cloth::ContactSource{mesh, {kGap_m, 0.0f, 0.0f, at, {}}, rest, {}, {}, {}};
   };
   cloth::Pair pair{.particle = {0, 1, 2, 3}, .edges = true};
   CHECK(cloth::contact_of(source(touching, apart), pair).gap_m == 0.0f);

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "layer_fixtures.hpp"
+#include "selfcontact/expected_paths.hpp"
 #include "selfcontact/self_contact.hpp"
 #include "selfcontact/strayed_leaves.hpp"
 
@@ -25,9 +26,9 @@ struct TwoSheets {
   std::vector<std::uint8_t> touching;
   cloth::SelfContact self;
 
-  TwoSheets() {
+  explicit TwoSheets(double between_m = kBetween_m) {
     const double side_m = kCellsASide * kCell_m;
-    for (const double height_m : {0.0, kBetween_m})
+    for (const double height_m : {0.0, between_m})
       append(surface(kCellsASide, kCellsASide, false,
                      [&](double u, double v) { return Vec3(u * side_m, height_m, v * side_m); }),
              mesh);
@@ -37,18 +38,36 @@ struct TwoSheets {
     touching.assign(particles.count(), 0);
     self = cloth::make_self_contact(mesh, particles, kLayerGap_m, kCell_m);
     cloth::begin_self_contact({}, particles, self);
+    push_apart();
+  }
+
+  void push_apart() {
     cloth::push_apart({}, {.length_s = kSubstep_s, .frame_s = 8 * kSubstep_s, .touching = touching}, self,
                       particles);
   }
 
-  /// The particle of the lower sheet in this row and column.
+  /// The particle of the lower sheet in this row and column, and the one of the upper sheet over it.
   Index at(int row, int column) const { return static_cast<Index>(row * (kCellsASide + 1) + column); }
+  Index above(Index i) const { return i + static_cast<Index>(particles.count() / 2); }
   /// Lifts a particle of the lower sheet in this substep.
   void lift(Index i, double by_m) { self.now[i].y += static_cast<float>(by_m); }
   /// Lists groups of what strayed by more than half of the spare distance.
-  bool list() { return cloth::list_strayed(self.now, kSubstep_s, 0.499f * self.spare_m, self); }
+  bool list() {
+    const float most_m = 0.499f * self.spare_m;
+    cloth::strays({}, self.now, kSubstep_s, most_m, self);
+    return cloth::list_strayed(kSubstep_s, most_m, self);
+  }
 
   std::set<LeafPair> listed() const {
+    std::set<LeafPair> all;
+    for (const cloth::PairTask& task : self.tasks) {
+      for (const cloth::PairGroup& group : task.groups) all.emplace(group.leaf[0], group.leaf[1]);
+      for (const cloth::ClearGroup& group : task.clear) all.emplace(group.leaf[0], group.leaf[1]);
+    }
+    return all;
+  }
+  /// The groups with travel of their own: none of these is clear.
+  std::set<LeafPair> awake() const {
     std::set<LeafPair> all;
     for (const cloth::PairTask& task : self.tasks)
       for (const cloth::PairGroup& group : task.groups) all.emplace(group.leaf[0], group.leaf[1]);
@@ -68,7 +87,7 @@ struct TwoSheets {
     for (const Index i : self.mesh.particles_of(a))
       for (const Index j : self.mesh.particles_of(b)) {
         const cloth::Point &p = self.now[i], &q = self.now[j];
-        if (std::hypot(p.x - q.x, p.y - q.y, p.z - q.z) < static_cast<float>(kLayerGap_m)) return true;
+        if (std::hypot(p.x - q.x, p.y - q.y, p.z - q.z) < self.gap_m) return true;
       }
     return false;
   }
@@ -121,4 +140,22 @@ TEST_CASE("strayed leaves: many, one that is very far, and a tree of other sweep
   other.self.swept = false;
   other.lift(other.at(2, 2), 12e-3);
   CHECK_FALSE(other.list());
+}
+
+TEST_CASE("strayed leaves: what stays apart on expected paths is clear, and woken once it came near") {
+  TwoSheets sheets(10.2e-3);
+  const std::set<LeafPair> before = sheets.awake();
+  CHECK(before.size() < sheets.listed().size());  // the sheets are in reach of each other
+  CHECK(std::ranges::includes(before, sheets.near()));
+  // Both stay within what all particles are allowed, and come nearer than the gap together.
+  const Index lower = sheets.at(20, 20), upper = sheets.above(lower);
+  sheets.particles.point[lower].y += 3.9e-3f, sheets.particles.point[upper].y -= 3.9e-3f;
+  sheets.push_apart();
+  CHECK(sheets.self.strayed.listed == 0);
+  const std::set<LeafPair> near = sheets.near(), after = sheets.awake();
+  CHECK_FALSE(std::ranges::includes(before, near));
+  CHECK(std::ranges::includes(after, near));
+  CHECK(after.size() < before.size() + 30);  // all else is clear as before
+  // They are pushed apart in the substep that brings them together.
+  CHECK(sheets.particles.point[upper].y - sheets.particles.point[lower].y > 0.99f * sheets.self.gap_m);
 }

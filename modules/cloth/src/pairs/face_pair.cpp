@@ -17,13 +17,6 @@ Float4 middle(const Float4 (&corner)[3]) {
   return (corner[0] + corner[1] + corner[2]) * (1.0f / 3.0f);
 }
 
-bool are_apart(const FacePair& p, float reach_m) {
-  const Float4 along = middle(p.a) - middle(p.b);
-  const float low = std::min({dot(along, p.a[0]), dot(along, p.a[1]), dot(along, p.a[2])}),
-              high = std::max({dot(along, p.b[0]), dot(along, p.b[1]), dot(along, p.b[2])});
-  return low > high && (low - high) * (low - high) > reach_m * reach_m * dot(along, along);
-}
-
 // Whether all corners but common ones keep the distance from a plane through the common ones.
 bool are_on_sides(const FacePair& p, Float4 direction, float reach_m) {
   const float wanted = reach_m * std::sqrt(dot(direction, direction) + kTinyLength2);
@@ -79,9 +72,15 @@ FacePair face_pair(const Face& a, const Face& b, std::span<const Point> at) {
   return out;
 }
 
+float least_apart(const FacePair& p) {
+  const Float4 along = middle(p.a) - middle(p.b);
+  const float low = std::min({dot(along, p.a[0]), dot(along, p.a[1]), dot(along, p.a[2])}),
+              high = std::max({dot(along, p.b[0]), dot(along, p.b[1]), dot(along, p.b[2])});
+  return low > high ? (low - high) / std::sqrt(dot(along, along)) : 0.0f;
+}
+
 bool are_clear(const FacePair& p, float reach_m) {
-  if (p.common == 3) return true;
-  return p.common == 0 ? are_apart(p, reach_m) : are_on_sides(p, between(p), reach_m);
+  return p.common == 3 || are_on_sides(p, between(p), reach_m);
 }
 
 float flat_for(const ContactMesh& mesh, std::size_t leaf, std::size_t other, std::span<const Point> at) {

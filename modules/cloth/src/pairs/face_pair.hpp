@@ -15,8 +15,12 @@ struct FacePair {
 
 FacePair face_pair(const Face& a, const Face& b, std::span<const Point> at);
 
-/// Whether a plane proves that parts without a common particle are farther apart than `reach_m`. Triangles
-/// with a common edge are taken for no slivers.
+/// How far apart two triangles without common particles are at least, meters: the distance of two planes
+/// between them, across the line of their middles. Zero where there are no such planes.
+float least_apart(const FacePair& pair);
+
+/// Whether a plane proves that those parts of two triangles with common particles which have none of these in
+/// common are farther apart than `reach_m`. Triangles with a common edge are taken for no slivers.
 bool are_clear(const FacePair& pair, float reach_m);
 
 /// How far the parts of two joined leaves (are_joined()) may move against each other, meters, before the

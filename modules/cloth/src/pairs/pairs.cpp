@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <utility>
 
 #include <bodice/engine/parallel.hpp>
@@ -15,8 +17,14 @@ namespace {
 constexpr std::size_t kLeavesATask = 32;
 // One worker ends the groups of so many tasks, which takes about as long as to begin a task of the engine.
 constexpr std::size_t kTasksTogether = 16;
+// Leaves that had no pairs are looked at as if they might move by so many slacks, because what has none keeps
+// apart for long: leaves with boxes that overlap although their triangles are an edge apart.
+constexpr float kFartherSlacks = 4.0f;
 // Room for pairs at first, of all tasks and of each, so that few frames need more; unused room costs nothing.
 constexpr std::size_t kPairsAtFirst = 65536, kFewPairs = 2048;
+// Leaves are clear if they stay so much farther apart than the gap on their paths, a share of the reach of a
+// search. With less room they would be woken soon.
+constexpr float kLeastRoom = 0.05f;
 // Pairs out of use that a task keeps besides half as many as are in use.
 constexpr std::size_t kUnused = 256;
 
@@ -30,6 +38,7 @@ struct LeafPair {
   const PairSearch& search;
   float reach_m;
   PairTask& task;
+  float apart_m = std::numeric_limits<float>::max();  // the least distance of triangles without a pair
 
   // Two edges are not near if their middles are farther apart than half of their lengths and the reach.
   bool are_far(const Corners& c) const {
@@ -66,7 +75,10 @@ struct LeafPair {
   }
 
   void visit(const Face& a, const Face& b) {
-    if (are_clear(face_pair(a, b, search.at), reach_m)) return;
+    const FacePair faces = face_pair(a, b, search.at);
+    const float least_m = faces.common == 0 ? least_apart(faces) : 0.0f;
+    apart_m = std::min(apart_m, std::max(least_m, reach_m));
+    if (least_m > reach_m || (faces.common > 0 && are_clear(faces, reach_m))) return;
     offer_particles(a, b);
     offer_particles(b, a);
     offer_edges(a, b);
@@ -74,25 +86,30 @@ struct LeafPair {
 };
 
 float room_between(const SweepTree& tree, std::size_t leaf, std::size_t other) {
-  return distance(tree.node[tree.width + leaf], tree.node[tree.width + other]);
+  return distance(tree.leaf[leaf], tree.leaf[other]);
 }
 
 // Lists the groups of a task; those that it had keep their pairs.
 void list_groups(const ContactMesh& mesh, const SweepTree& tree, float reach_m, float gap_m, PairTask& task) {
   std::swap(task.groups, task.groups_before);
-  task.groups.clear(), task.used = 0;
+  task.groups.clear(), task.clear.clear(), task.used = 0;
   auto before = task.groups_before.begin();
   for (std::size_t first = task.first_leaf; first < task.last_leaf; first += kLeavesTogether) {
     const std::size_t last = std::min(first + kLeavesTogether, task.last_leaf);
-    for_each_near_leaf(tree, first, last, reach_m, task.near, [&](std::size_t leaf, std::size_t other) {
+    const auto list = [&](std::size_t leaf, std::size_t other, float apart_m) {
       const std::pair wanted(static_cast<std::uint32_t>(leaf), static_cast<std::uint32_t>(other));
+      if (apart_m - gap_m > kLeastRoom * reach_m) {
+        task.clear.push_back({{wanted.first, wanted.second}, apart_m - gap_m});
+        return;
+      }
       while (before != task.groups_before.end() && leaves_of(*before) < wanted) ++before;
       const bool known = before != task.groups_before.end() && leaves_of(*before) == wanted;
       task.groups.push_back(known ? *before
                                   : new_group(mesh, leaf, other, room_between(tree, leaf, other) - gap_m));
       task.groups.back().fresh = false;
       task.used += task.groups.back().end - task.groups.back().begin;
-    });
+    };
+    for_each_near_leaf(tree, first, last, reach_m, task.near, list);
   }
 }
 
@@ -112,6 +129,7 @@ std::vector<PairTask> make_pair_tasks(const ContactMesh& mesh) {
   for (PairTask& task : tasks) {
     task.pairs.reserve(pairs), task.spare.reserve(pairs);
     task.groups.reserve(pairs / 2), task.groups_before.reserve(pairs / 2), task.near.reserve(pairs / 2);
+    task.clear.reserve(pairs / 2), task.woken.reserve(pairs / 2);
     task.crossing.reserve(pairs / 4), task.pressed.reserve(pairs / 4);
     task.held.reserve(pairs / 4), task.folded.reserve(pairs);
     for (auto& contacts : task.contacts) contacts.reserve(pairs);
@@ -125,6 +143,26 @@ PairGroup new_group(const ContactMesh& mesh, std::size_t leaf, std::size_t other
           .find_m = room_m,
           .joined = are_joined(mesh, leaf, other),
           .inside = mesh.block[leaf] == mesh.block[other] && mesh.block[leaf] != kNoBlock};
+}
+
+void add_groups(std::span<const PairGroup> groups, PairTask& task) {
+  const auto by_leaves = [](const PairGroup& group) { return leaves_of(group); };
+  task.groups_before.clear();
+  std::ranges::merge(task.groups, groups, std::back_inserter(task.groups_before), {}, by_leaves, by_leaves);
+  std::swap(task.groups, task.groups_before);
+}
+
+void wake_groups(const ContactMesh& mesh, std::span<const float> off_m, PairTask& task) {
+  task.woken.clear();
+  for (const ClearGroup& group : task.clear) {
+    if (off_m[group.leaf[0]] + off_m[group.leaf[1]] < group.room_m) continue;
+    task.woken.push_back(new_group(mesh, group.leaf[0], group.leaf[1], 0.0f));
+  }
+  if (task.woken.empty()) return;
+  add_groups(task.woken, task);
+  std::erase_if(task.clear, [&](const ClearGroup& group) {
+    return !(off_m[group.leaf[0]] + off_m[group.leaf[1]] < group.room_m);
+  });
 }
 
 void find_groups(const engine::Context& context, const ContactMesh& mesh, const SweepTree& tree,
@@ -145,12 +183,16 @@ void find_pairs(const ContactMesh& mesh, const PairSearch& search, PairGroup& gr
   const FaceBoxes boxes(mesh, search.at, leaf, other);
   const float room_m = group.joined ? 0.0f : boxes.distance() - search.gap_m;
   if (room_m > search.slack_m) return clear_pairs(room_m, group, task);
+  const bool had_none = !group.joined && group.begin == group.end;
   task.used -= group.end - group.begin;
   group.begin = static_cast<std::uint32_t>(task.pairs.size());
   LeafPair leaves{mesh, search, search.gap_m + search.slack_m, task};
-  boxes.for_each_near(leaves.reach_m,
+  const float far_m = search.gap_m + (had_none ? kFartherSlacks : 1.0f) * search.slack_m;
+  boxes.for_each_near(far_m,
                       [&](std::uint32_t a, std::uint32_t b) { leaves.visit(mesh.faces[a], mesh.faces[b]); });
   group.end = static_cast<std::uint32_t>(task.pairs.size());
+  if (had_none && group.begin == group.end)
+    return clear_pairs(std::min(leaves.apart_m, far_m) - search.gap_m, group, task);
   task.used += group.end - group.begin;
   for (std::uint32_t k = group.begin; k < group.end; ++k) task.pairs[k].until_m = group.travel_m;
   group.find_m = group.travel_m + search.slack_m;

@@ -42,8 +42,19 @@ struct PairGroup {
   bool fresh = false;     ///< whether its pairs' contacts are those of this substep
 };
 
+/// Two leaves that need no pairs yet.
+struct ClearGroup {
+  std::uint32_t leaf[2];
+  /// What they are farther apart than the gap on the paths expected of them. While they are off these by less
+  /// in sum, none of their parts comes nearer than the gap.
+  float room_m;
+};
+
 /// What groups are in order of.
 inline std::pair<std::uint32_t, std::uint32_t> leaves_of(const PairGroup& group) {
+  return {group.leaf[0], group.leaf[1]};
+}
+inline std::pair<std::uint32_t, std::uint32_t> leaves_of(const ClearGroup& group) {
   return {group.leaf[0], group.leaf[1]};
 }
 
@@ -68,6 +79,8 @@ struct Tangle {
 struct PairTask {
   std::size_t first_leaf = 0, last_leaf = 0;
   std::vector<PairGroup> groups, groups_before;  ///< by leaf, then by the other leaf; those before the search
+  std::vector<ClearGroup> clear;                 ///< in the same order
+  std::vector<PairGroup> woken;                  ///< room for those that are no longer clear
   std::vector<std::uint32_t> near;               ///< room for a search
   std::vector<Pair> pairs;                       ///< what all groups have, and some that are no longer used
   std::vector<Pair> spare;                       ///< room for the same, for tidy()
@@ -86,11 +99,18 @@ std::vector<PairTask> make_pair_tasks(const ContactMesh& mesh);
 /// A group of two leaves that is listed for the first time, and that are `room_m` farther apart than the gap.
 PairGroup new_group(const ContactMesh& mesh, std::size_t leaf, std::size_t other, float room_m);
 
-/// Lists the groups of all leaves that come nearer than `reach_m` on the sweeps of the tree. They have no
-/// pairs yet, and need none until they moved by their distance, less the gap; groups that were listed before
-/// keep theirs. The same for any number of workers.
+/// Adds groups to a task, which are in order.
+void add_groups(std::span<const PairGroup> groups, PairTask& task);
+
+/// Lists the groups of all leaves that come nearer than `reach_m` on the sweeps of the tree, which are those
+/// of the expected paths. What stays apart on these is clear. Of all others, those that were listed before
+/// keep their pairs; new ones have none, and need none until they moved by their distance, less the gap. The
+/// same for any number of workers.
 void find_groups(const engine::Context& context, const ContactMesh& mesh, const SweepTree& tree,
                  float reach_m, float gap_m, std::vector<PairTask>& tasks);
+
+/// Makes groups of what is no longer clear when leaves are off their expected paths by `off_m`, #leaves.
+void wake_groups(const ContactMesh& mesh, std::span<const float> off_m, PairTask& task);
 
 /// What pairs are looked for.
 struct PairSearch {

@@ -1,6 +1,6 @@
 #include "pairs/sweep_tree.hpp"
 
-#include <bit>
+#include <algorithm>
 
 #include <bodice/engine/parallel.hpp>
 
@@ -10,17 +10,40 @@ namespace {
 constexpr float kBeyondAll_m = 1e30f;
 constexpr std::size_t kFitsATask = 128;
 
-// A sweep of nothing.
+// A sweep of nothing, which is near nothing.
 Sweep no_sweep() {
   const Float4 far = {kBeyondAll_m, kBeyondAll_m, kBeyondAll_m, 0.0f};
   return {far, -far, far, -far};
 }
 
-// A leaf of the tree without particles, which does not move.
-Sweep empty_leaf() {
-  Sweep sweep = no_sweep();
-  sweep.move_low = sweep.move_high = splat(0.0f);
-  return sweep;
+void set_lane(SweepQuad& quad, std::size_t lane, const Sweep& sweep) {
+  for (int axis = 0; axis < 3; ++axis) {
+    quad.low[axis][lane] = sweep.low[axis], quad.high[axis][lane] = sweep.high[axis];
+    quad.move_low[axis][lane] = sweep.move_low[axis], quad.move_high[axis][lane] = sweep.move_high[axis];
+  }
+}
+
+// What bounds all lanes.
+Sweep bounds_of(const SweepQuad& quad) {
+  const auto least = [](Float4 v) { return std::min({v[0], v[1], v[2], v[3]}); };
+  const auto most = [](Float4 v) { return std::max({v[0], v[1], v[2], v[3]}); };
+  Sweep all = no_sweep();
+  for (int axis = 0; axis < 3; ++axis) {
+    all.low[axis] = least(quad.low[axis]), all.high[axis] = most(quad.high[axis]);
+    all.move_low[axis] = least(quad.move_low[axis]), all.move_high[axis] = most(quad.move_high[axis]);
+  }
+  return all;
+}
+
+void set_leaf(std::size_t leaf, SweepTree& tree) {
+  set_lane(tree.quad[tree.first_leaf_quad + leaf / 4], leaf % 4, tree.leaf[leaf]);
+}
+
+// Fits the lane that bounds a quad other than the root; returns the quad that has it.
+std::size_t set_parent(std::size_t quad, SweepTree& tree) {
+  const std::size_t parent = (quad - 1) / 4;
+  set_lane(tree.quad[parent], (quad - 1) % 4, bounds_of(tree.quad[quad]));
+  return parent;
 }
 
 }  // namespace
@@ -28,8 +51,14 @@ Sweep empty_leaf() {
 SweepTree make_sweep_tree(const ContactMesh& mesh) {
   SweepTree tree;
   tree.leaves = mesh.leaves();
-  tree.width = std::bit_ceil(tree.leaves);
-  tree.node.assign(2 * tree.width, empty_leaf());
+  while (4 * tree.leaves_a_lane < tree.leaves) {
+    tree.first_leaf_quad = 4 * tree.first_leaf_quad + 1;
+    tree.leaves_a_lane *= 4;
+  }
+  tree.leaf.assign(tree.leaves, no_sweep());
+  SweepQuad empty;
+  for (std::size_t lane = 0; lane < 4; ++lane) set_lane(empty, lane, no_sweep());
+  tree.quad.assign(tree.first_leaf_quad + tree.leaves_a_lane, empty);
   return tree;
 }
 
@@ -47,19 +76,18 @@ Sweep sweep_of(const ContactMesh& mesh, std::size_t leaf, const SweptPoints& poi
 void refit(const engine::Context& context, const ContactMesh& mesh, const SweptPoints& points,
            SweepTree& tree) {
   engine::parallel_for(context, mesh.leaves(), kFitsATask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t leaf = begin; leaf < end; ++leaf)
-      tree.node[tree.width + leaf] = sweep_of(mesh, leaf, points);
+    for (std::size_t leaf = begin; leaf < end; ++leaf) {
+      tree.leaf[leaf] = sweep_of(mesh, leaf, points);
+      set_leaf(leaf, tree);
+    }
   });
-  for (std::size_t k = tree.width; k-- > 1;) {
-    tree.node[k] = tree.node[2 * k];
-    const Sweep& right = tree.node[2 * k + 1];
-    if (right.low[0] <= right.high[0]) add(right, tree.node[k]);  // else there is nothing in it
-  }
+  for (std::size_t quad = tree.quad.size(); quad-- > 1;) set_parent(quad, tree);
 }
 
 void refit_leaf(const ContactMesh& mesh, std::size_t leaf, const SweptPoints& points, SweepTree& tree) {
-  const Sweep all = tree.node[tree.width + leaf] = sweep_of(mesh, leaf, points);
-  for (std::size_t k = (tree.width + leaf) / 2; k > 0; k /= 2) add(all, tree.node[k]);
+  tree.leaf[leaf] = sweep_of(mesh, leaf, points);
+  set_leaf(leaf, tree);
+  for (std::size_t quad = tree.first_leaf_quad + leaf / 4; quad > 0;) quad = set_parent(quad, tree);
 }
 
 }  // namespace bodice::cloth

@@ -15,7 +15,6 @@ namespace bodice::inline v0_1::cloth {
 namespace {
 
 constexpr float kNoPath_m = std::numeric_limits<float>::infinity();
-constexpr std::size_t kMovesATask = 256;
 constexpr int kPushes = 2;  // sweeps over the contacts of a substep
 // The slack of a search is at least this multiple of the largest step of a leaf. Cloth that constraints and
 // contact move to and fro then keeps its pairs of leaves for several substeps.
@@ -118,13 +117,6 @@ LeafMove move_of(const ContactMesh& mesh, std::size_t leaf, std::span<const Poin
   return {xyz(m.at_low), xyz(m.at_high), xyz(m.low), xyz(m.high)};
 }
 
-void find_moves(const engine::Context& context, const ContactMesh& mesh, std::span<const Point> before,
-                std::span<const Point> now, std::vector<LeafMove>& moves) {
-  engine::parallel_for(context, mesh.leaves(), kMovesATask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t leaf = begin; leaf < end; ++leaf) moves[leaf] = move_of(mesh, leaf, before, now);
-  });
-}
-
 PairContact contact_of(const ContactSource& source, Pair& pair) {
   const Closest c = closest(pair.edges, corners_of(pair.particle, source.search.at));
   const float apart_m = std::sqrt(c.length2);
@@ -162,6 +154,7 @@ void refresh_contacts(const engine::Context& context, const ContactSource& sourc
     PairTask& task = tasks[t];
     for (auto& contacts : task.contacts) contacts.clear();
     tidy(task);
+    wake_groups(source.mesh, source.off_m, task);
     for (PairGroup& group : task.groups) {
       const float step_m = source.step_of(group);
       group.fresh = false;

@@ -33,6 +33,7 @@ struct ContactSource {
   PairSearch search;                    ///< at the positions when the substep began
   std::span<const Point> rest;          ///< #P: positions at rest
   std::span<const LeafMove> moves;      ///< #leaves: in this substep
+  std::span<const float> off_m;         ///< #leaves: how far they are off their expected paths at its end
   std::span<const std::uint8_t> loose;  ///< #P: pairs with two parts of which any is loose have no contact
 
   float step_of(const PairGroup& group) const {
@@ -43,10 +44,6 @@ struct ContactSource {
 /// The displacements of a leaf from `before` to `now`.
 LeafMove move_of(const ContactMesh& mesh, std::size_t leaf, std::span<const Point> before,
                  std::span<const Point> now);
-
-/// Finds those of all leaves.
-void find_moves(const engine::Context& context, const ContactMesh& mesh, std::span<const Point> before,
-                std::span<const Point> now, std::vector<LeafMove>& moves);
 
 /// The contact of a pair when the substep began; sets its gap, if that is not known yet. Its distance is zero
 /// where the two touch, so that there is no normal.

@@ -23,23 +23,36 @@ Expectation::Expectation(float since_s, float most, const SelfContact& s)
     : self(s), share(std::min(1.0f, since_s / s.ahead_s)), most_m(most) {}
 
 bool strays(const engine::Context& context, std::span<const Point> at, float since_s, float most_m,
-            const SelfContact& s) {
+            SelfContact& s) {
   const Expectation expected(since_s, most_m, s);
   std::atomic<bool> far{false};
   engine::parallel_for(context, s.found.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     bool any_far = false;
-    for (std::size_t i = begin; i < end; ++i) any_far = any_far || !expected.holds(at, i);
+    for (std::size_t i = begin; i < end; ++i) {
+      s.off2[i] = expected.off2(at, i);
+      any_far = any_far || !expected.allows(s.off2[i], i);
+    }
     if (any_far) far.store(true, std::memory_order_relaxed);
   });
   return far.load();
 }
 
 bool any_strays(std::span<const std::uint32_t> leaves, std::span<const Point> at, float since_s, float most_m,
-                const SelfContact& s) {
+                SelfContact& s) {
   const Expectation expected(since_s, most_m, s);
-  return std::ranges::any_of(leaves, [&](std::uint32_t leaf) {
-    return std::ranges::any_of(s.mesh.particles_of(leaf), [&](Index i) { return !expected.holds(at, i); });
-  });
+  bool any_far = false;
+  for (const std::uint32_t leaf : leaves)
+    for (const Index i : s.mesh.particles_of(leaf)) {
+      s.off2[i] = expected.off2(at, i);
+      any_far = any_far || !expected.allows(s.off2[i], i);
+    }
+  return any_far;
+}
+
+float off_of(std::size_t leaf, const SelfContact& s) {
+  float off2 = 0.0f;
+  for (const Index i : s.mesh.particles_of(leaf)) off2 = std::max(off2, s.off2[i]);
+  return std::sqrt(off2);
 }
 
 void look_ahead(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,

@@ -19,19 +19,24 @@ struct Expectation {
     const Float4 off = xyz(load(at[i]) - load(self.found[i]) - share * load(self.ahead[i]));
     return dot(off, off);
   }
-  bool holds(std::span<const Point> at, std::size_t i) const {
+  /// Whether particle i may be so far from there, the square of a distance.
+  bool allows(float off2, std::size_t i) const {
     const float allowed_m = most_m + self.beyond_m[i];
-    return off2(at, i) <= allowed_m * allowed_m;
+    return off2 <= allowed_m * allowed_m;
   }
 };
 
-/// Whether a particle at `at` left its expected path by more than `most_m`, `since_s` after the search.
+/// Finds how far the particles at `at` are off their expected paths, `since_s` after the search; returns
+/// whether any is by more than `most_m`, and what it is allowed beyond that.
 bool strays(const engine::Context& context, std::span<const Point> at, float since_s, float most_m,
-            const SelfContact& self);
+            SelfContact& self);
 
 /// The same of the particles of some leaves alone, on the calling thread.
 bool any_strays(std::span<const std::uint32_t> leaves, std::span<const Point> at, float since_s, float most_m,
-                const SelfContact& self);
+                SelfContact& self);
+
+/// How far any of a leaf's particles is off its expected path, meters.
+float off_of(std::size_t leaf, const SelfContact& self);
 
 /// Expects that particles go on as they did, for a frame; and those that are at `at`, farther from there than
 /// `most_m`, that they stray no more than that.

@@ -14,10 +14,14 @@ template <class Visit>
 void for_each_task_of_leaf(const std::vector<PairTask>& tasks, std::vector<std::uint32_t>& last_task,
                            Visit&& visit) {
   std::ranges::fill(last_task, kNoTask);
-  for (std::uint32_t t = 0; t < tasks.size(); ++t)
-    for (const PairGroup& group : tasks[t].groups)
-      for (const std::uint32_t leaf : group.leaf)
-        if (std::exchange(last_task[leaf], t) != t) visit(leaf, t);
+  for (std::uint32_t t = 0; t < tasks.size(); ++t) {
+    const auto visit_leaves = [&](const auto& groups) {
+      for (const auto& group : groups)
+        for (const std::uint32_t leaf : group.leaf)
+          if (std::exchange(last_task[leaf], t) != t) visit(leaf, t);
+    };
+    visit_leaves(tasks[t].groups), visit_leaves(tasks[t].clear);
+  }
 }
 
 void index_tasks(const std::vector<PairTask>& tasks, MovedLeaves& m) {

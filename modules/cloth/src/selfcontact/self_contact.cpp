@@ -51,6 +51,8 @@ constexpr int kGuardings = 4;
 // fifth more skin shows between coarse triangles, with a half more layers cross.
 constexpr float kYieldedShare = 0.3f;
 
+constexpr std::size_t kMovesATask = 256;
+
 // All groups are listed anew in a frame that begins with more than so many of strayed particles a leaf.
 constexpr std::size_t kMostListedALeaf = 1;
 
@@ -77,13 +79,25 @@ void keep_groups(const engine::Context& context, const SelfSubstep& substep, std
                  float used, SelfContact& s) {
   const float most_m = used * s.spare_m, since_s = s.since_s + substep.length_s;
   if (s.searched && !strays(context, at, since_s, most_m, s)) return;
-  if (s.searched && list_strayed(at, since_s, most_m, s)) return;
+  if (s.searched && list_strayed(since_s, most_m, s)) return;
   look_ahead(context, substep, at, kOnPath * most_m, s);
   search(context, s);
+  strays(context, at, substep.length_s, most_m, s);
 }
 
 ContactSource source_of(const SelfContact& s) {
-  return {s.mesh, {s.gap_m, s.slack_m, 0.0f, s.before, s.folded}, s.rest, s.moves, s.loose.is_loose};
+  return {s.mesh, {s.gap_m, s.slack_m, 0.0f, s.before, s.folded}, s.rest, s.moves, s.off_m, s.loose.is_loose};
+}
+
+void find_move(std::size_t leaf, SelfContact& s) {
+  s.moves[leaf] = move_of(s.mesh, leaf, s.before, s.now);
+  s.off_m[leaf] = off_of(leaf, s);
+}
+
+void find_moves(const engine::Context& context, SelfContact& s) {
+  engine::parallel_for(context, s.mesh.leaves(), kMovesATask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t leaf = begin; leaf < end; ++leaf) find_move(leaf, s);
+  });
 }
 
 void copy_points(const engine::Context& context, const Particles& p, std::vector<Point>& to) {
@@ -100,7 +114,7 @@ PairPush push_of(const SelfSubstep& substep, const SelfContact& s) {
 std::size_t count_crossing(const engine::Context& context, const SelfSubstep& substep, Room room,
                            SelfContact& s) {
   keep_groups(context, substep, s.now, kUsedAfter, s);
-  find_moves(context, s.mesh, s.before, s.now, s.moves);
+  find_moves(context, s);
   forget_moved(s.moved_leaves);
   return find_crossing(context, source_of(s), {s.now, s.zones.guard, s.zones.parent, room}, s.tasks);
 }
@@ -111,8 +125,7 @@ std::size_t count_crossing_again(const engine::Context& context, const SelfSubst
   const float since_s = s.since_s + substep.length_s;
   if (any_strays(s.moved_leaves.leaves, s.now, since_s, kUsedAfter * s.spare_m, s))
     return count_crossing(context, substep, room, s);
-  for (const std::uint32_t leaf : s.moved_leaves.leaves)
-    s.moves[leaf] = move_of(s.mesh, leaf, s.before, s.now);
+  for (const std::uint32_t leaf : s.moved_leaves.leaves) find_move(leaf, s);
   const std::size_t count = find_crossing_again(
       context, source_of(s), {s.now, s.zones.guard, s.zones.parent, room}, s.moved_leaves, s.tasks);
   forget_moved(s.moved_leaves);
@@ -222,10 +235,10 @@ SelfContact make_self_contact(const geometry::TriMesh& mesh, const Particles& p,
   s.tasks = make_pair_tasks(s.mesh);
   s.zones = make_zones(p.count());
   s.loose = make_loose(p.count());
-  s.moves.resize(s.mesh.leaves()), s.folded.resize(s.mesh.leaves());
+  s.moves.resize(s.mesh.leaves()), s.off_m.resize(s.mesh.leaves()), s.folded.resize(s.mesh.leaves());
   s.moved_leaves = make_moved_leaves(s.mesh, s.tasks.size());
   s.strayed = make_strayed_leaves(p.count(), s.mesh);
-  s.moved.reserve(p.count()), s.beyond_m.resize(p.count());
+  s.moved.reserve(p.count()), s.beyond_m.resize(p.count()), s.off2.resize(p.count());
   for (auto* points : {&s.rest, &s.before, &s.now, &s.found, &s.ahead, &s.drift}) points->resize(p.count());
   for (std::size_t i = 0; i < p.count(); ++i) s.rest[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
   return s;
@@ -263,7 +276,7 @@ SelfContactReport report_self_contact(const SelfContact& s) {
 void push_apart(const engine::Context& context, const SelfSubstep& substep, SelfContact& s, Particles& p) {
   foresee(context, substep, (substep.still_body ? kUsedStill : kUsedMoving) * s.spare_m, p, s);
   keep_groups(context, substep, s.now, kUsedBefore, s);
-  find_moves(context, s.mesh, s.before, s.now, s.moves);
+  find_moves(context, s);
   refresh_contacts(context, source_of(s), s.tasks);
   push_contacts(context, s.mesh, push_of(substep, s), s.tasks, p.point);
   untangle(s.mesh, s.tangles, {substep.touching, s.loose.list, kUntangle_m_s * substep.length_s}, s.now,

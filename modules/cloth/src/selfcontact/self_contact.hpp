@@ -44,6 +44,8 @@ struct SelfContact {
   StrayedLeaves strayed;
   std::vector<Point> drift;          ///< #P: smoothed velocities, meters a second
   std::vector<LeafMove> moves;       ///< #leaves
+  std::vector<float> off2;           ///< #P: squares of how far particles are off their expected paths
+  std::vector<float> off_m;          ///< #leaves: the largest of its particles
   std::vector<std::uint8_t> folded;  ///< as PairSearch::folded, when the substep began
   Zones zones;
   float ahead_s = 0.0f, since_s = 0.0f;  ///< the time of these displacements; that since the search

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "selfcontact/expected_paths.hpp"
@@ -20,11 +19,11 @@ constexpr float kMostBeyond = 4.0f;
 constexpr std::size_t kWantedALeaf = 2;
 
 // Lists the particles that strayed; returns whether these are few.
-bool find_strayed(const Expectation& expected, std::span<const Point> at, std::vector<Index>& particles) {
+bool find_strayed(const Expectation& expected, std::span<const float> off2, std::vector<Index>& particles) {
   particles.clear();
-  for (Index i = 0; i < at.size(); ++i) {
-    if (expected.holds(at, i)) continue;
-    if (particles.size() * kFewStrayed >= at.size()) return false;
+  for (Index i = 0; i < off2.size(); ++i) {
+    if (expected.allows(off2[i], i)) continue;
+    if (particles.size() * kFewStrayed >= off2.size()) return false;
     particles.push_back(i);
   }
   return true;
@@ -40,14 +39,16 @@ void find_leaves(const ContactMesh& mesh, StrayedLeaves& s) {
 }
 
 bool is_listed(const PairTask& task, std::pair<std::uint32_t, std::uint32_t> leaves) {
-  return std::ranges::binary_search(task.groups, leaves, {}, leaves_of);
+  const auto by_leaves = [](const auto& group) { return leaves_of(group); };
+  return std::ranges::binary_search(task.groups, leaves, {}, by_leaves) ||
+         std::ranges::binary_search(task.clear, leaves, {}, by_leaves);
 }
 
 // Lists the groups that the strayed leaves have not, by task, leaf and other leaf.
 void find_wanted(const SweepTree& tree, float reach_m, const std::vector<PairTask>& tasks, StrayedLeaves& s) {
   s.wanted.clear();
   for (const std::uint32_t own : s.leaves)
-    for_each_near_leaf(tree, tree.node[tree.width + own], 0, reach_m, [&](std::size_t near) {
+    for_each_near_leaf(tree, tree.leaf[own], reach_m, [&](std::size_t near) {
       const auto [leaf, other] = std::minmax({own, static_cast<std::uint32_t>(near)});
       const auto task =
           std::ranges::partition_point(tasks, [leaf](const PairTask& t) { return t.last_leaf <= leaf; });
@@ -60,7 +61,7 @@ void find_wanted(const SweepTree& tree, float reach_m, const std::vector<PairTas
 }
 
 // Adds groups to a task, in the order of all. Their distances are those when the substep began.
-void add_groups(std::span<const WantedGroup> wanted, const SelfContact& s, std::vector<PairGroup>& room,
+void add_wanted(std::span<const WantedGroup> wanted, const SelfContact& s, std::vector<PairGroup>& room,
                 PairTask& task) {
   room.clear();
   for (const WantedGroup& w : wanted) {
@@ -68,9 +69,7 @@ void add_groups(std::span<const WantedGroup> wanted, const SelfContact& s, std::
         distance(sweep_of(s.mesh, w.leaf, {.at = s.before}), sweep_of(s.mesh, w.other, {.at = s.before}));
     room.push_back(new_group(s.mesh, w.leaf, w.other, apart_m - s.gap_m));
   }
-  task.groups_before.clear();
-  std::ranges::merge(task.groups, room, std::back_inserter(task.groups_before), {}, leaves_of, leaves_of);
-  std::swap(task.groups, task.groups_before);
+  add_groups(room, task);
 }
 
 }  // namespace
@@ -84,13 +83,13 @@ StrayedLeaves make_strayed_leaves(std::size_t particles, const ContactMesh& mesh
   return s;
 }
 
-bool list_strayed(std::span<const Point> at, float since_s, float most_m, SelfContact& self) {
+bool list_strayed(float since_s, float most_m, SelfContact& self) {
   StrayedLeaves& s = self.strayed;
   const Expectation expected(since_s, most_m, self);
-  if (!self.swept || !find_strayed(expected, at, s.particles)) return false;
+  if (!self.swept || !find_strayed(expected, self.off2, s.particles)) return false;
   // They may soon be as far again, so that each is allowed whole spare distances.
   for (const Index i : s.particles) {
-    const float beyond_m = std::sqrt(expected.off2(at, i)) - most_m;
+    const float beyond_m = std::sqrt(self.off2[i]) - most_m;
     if (!(beyond_m <= kMostBeyond * self.spare_m)) return false;
     self.beyond_m[i] = self.spare_m * std::ceil(beyond_m / self.spare_m);
   }
@@ -101,7 +100,7 @@ bool list_strayed(std::span<const Point> at, float since_s, float most_m, SelfCo
   for (auto first = s.wanted.begin(); first != s.wanted.end();) {
     const auto last =
         std::find_if(first, s.wanted.end(), [&](const WantedGroup& w) { return w.task != first->task; });
-    add_groups({first, last}, self, s.groups, self.tasks[first->task]);
+    add_wanted({first, last}, self, s.groups, self.tasks[first->task]);
     first = last;
   }
   if (!s.wanted.empty()) self.moved_leaves.indexed = false;

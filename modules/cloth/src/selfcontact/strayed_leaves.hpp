@@ -32,10 +32,10 @@ struct StrayedLeaves {
 /// Room for a garment, so that frames allocate nothing.
 StrayedLeaves make_strayed_leaves(std::size_t particles, const ContactMesh& mesh);
 
-/// Lists the further groups of leaves with particles that at `at` are farther from their expected paths than
-/// `most_m`, and allows these particles to be as far from there. Returns false, with nothing listed, where so
-/// many strayed that all groups should be searched anew, or where the tree does not have the sweeps of the
-/// last search. O(#P), and O(log #leaves) a leaf that strayed and a group that it may be near.
-bool list_strayed(std::span<const Point> at, float since_s, float most_m, SelfContact& self);
+/// Lists the further groups of leaves with particles that are farther off their expected paths than `most_m`,
+/// as strays() found, and allows these particles to be as far from there. Returns false, with nothing listed,
+/// where so many strayed that all groups should be searched anew, or where the tree does not have the sweeps
+/// of the last search. O(#P), and O(log #leaves) a leaf that strayed and a group that it may be near.
+bool list_strayed(float since_s, float most_m, SelfContact& self);
 
 }  // namespace bodice::cloth

@@ -105,7 +105,7 @@ void search_tangles(const ContactMesh& mesh, const SweepTree& tree, std::span<co
   task.tangles.clear();
   for (std::size_t first = task.first_leaf; first < task.last_leaf; first += kLeavesTogether) {
     const std::size_t last = std::min(first + kLeavesTogether, task.last_leaf);
-    for_each_near_leaf(tree, first, last, 0.0f, task.near, [&](std::size_t leaf, std::size_t other) {
+    for_each_near_leaf(tree, first, last, 0.0f, task.near, [&](std::size_t leaf, std::size_t other, float) {
       FaceBoxes(mesh, at, leaf, other).for_each_near(0.0f, [&](std::uint32_t a, std::uint32_t b) {
         if (cross_each_other(mesh.faces[a], mesh.faces[b], at))
           task.tangles.push_back({std::min(a, b), std::max(a, b)});

@@ -13,6 +13,10 @@ namespace {
 
 // What remains of a pair's distance after a substep at least: this share of it, or of its gap.
 constexpr float kKept = 0.2f, kKeptOfGap = 0.02f;
+// Parts that the body presses together for many substeps come no nearer than kNear_m, and keep this share
+// of less. A hundred roundings of a position are as long, so that their normal is still right; nearer than
+// kTouching_m there is none, and contact could not hold them apart.
+constexpr float kNear_m = 5e-6f, kKeptOfNear = 0.9f;
 
 // The distance that pairs which would cross are pushed apart to, a share of their gap.
 constexpr float kHeldOfGap = 0.1f;
@@ -52,8 +56,13 @@ bool can_be_parted(const PairContact& c, const CrossingSearch& how) {
   return !(backed[0] && backed[1]);
 }
 
+float least_of(const PairContact& c) {
+  return std::max(std::min(kKept * c.apart_m, kKeptOfGap * c.gap_m),
+                  std::min(kKeptOfNear * c.apart_m, kNear_m));
+}
+
 bool would_cross(const PairContact& c, const ContactSource& source, std::span<const Point> now) {
-  const float least_m = std::min(kKept * c.apart_m, kKeptOfGap * c.gap_m);
+  const float least_m = least_of(c);
   const Corners to = corners_of(c.particle, now);
   if (separation(c.edges, to, c.normal) > least_m) return false;
   const Corners from = corners_of(c.particle, source.search.at);
@@ -86,7 +95,7 @@ void find_crossing_in(const ContactSource& source, const CrossingSearch& how, Pa
     if (pair.until_m > group.travel_m + step_m) continue;
     if (are_loose(pair.particle, pair.edges, source.loose)) continue;
     const PairContact& contact = known_contact(source, group, pair, task);
-    if (!(contact.gap_m > 0.0f) || step_m < (1.0f - kKept) * contact.apart_m) continue;
+    if (!(contact.gap_m > 0.0f) || step_m < contact.apart_m - least_of(contact)) continue;
     if (!would_cross(contact, source, how.now)) continue;
     if (!can_be_parted(contact, how)) {
       task.pressed.push_back(pair);
@@ -166,6 +175,7 @@ std::size_t find_crossing(const engine::Context& context, const ContactSource& s
     PairTask& task = tasks[t];
     task.crossing.clear(), task.held.clear(), task.pressed.clear();
     tidy(task), tidy_contacts(task);
+    wake_groups(source.mesh, source.off_m, task);
     for (PairGroup& group : task.groups) find_crossing_in(source, how, group, task);
   });
   return count_all_crossing(tasks);
@@ -179,6 +189,7 @@ std::size_t find_crossing_again(const engine::Context& context, const ContactSou
     for (const std::uint32_t t : again.subspan(begin, end - begin)) {
       PairTask& task = tasks[t];
       tidy(task), tidy_contacts(task);  // in a pinch, rounds find the same groups many times
+      wake_groups(source.mesh, source.off_m, task);
       for (PairGroup& group : task.groups)
         if (moved.has_moved(group)) find_crossing_in(source, how, group, task);
     }
