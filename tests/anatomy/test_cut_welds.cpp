@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <span>
 
-#include <bodice/engine/random.hpp>
 #include <bodice/geometry/noise.hpp>
 #include <bodice/synth/scan.hpp>
+#include <bodice_test/random_build.hpp>
 
 #include "analyzed.hpp"
 #include "made.hpp"
@@ -45,14 +45,7 @@ double worst_landmark(const synth::ScanPerson& person, const anatomy::Anatomy& f
 
 /// A body that stands, of random build and resolution.
 synth::Body made_standing(std::uint64_t seed) {
-  engine::Random random(seed, 0x816);
-  synth::BodyOptions options;
-  options.sex = random.below(2) == 0 ? body::Sex::kFemale : body::Sex::kMale;
-  options.stature_m = random.uniform(1.5, 1.95);
-  options.mass_kg = random.uniform(18.5, 32.0) * options.stature_m * options.stature_m;
-  options.vertices = static_cast<int>(random.uniform(3000.0, 9000.0));
-  options.seed = seed + 100;
-  auto made = synth::make_body({}, options);
+  auto made = synth::make_body({}, bodice_test::random_build(seed));
   REQUIRE(made.ok());
   return std::move(made).value();
 }

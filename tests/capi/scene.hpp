@@ -49,6 +49,16 @@ struct Scene {
   }
 };
 
+/// What the collider behind the C interface finds for these points of the world, one contact each.
+inline std::vector<bodice_contact> contacts_at(Scene& scene, const std::vector<bodice_test::Vec3>& points) {
+  std::vector<bodice_contact> found(points.size());
+  bodice_contacts to = bodice_default_contacts();
+  to.contact = found.data();
+  const bodice::Points given(points.size(), points.front().data(), sizeof(bodice_test::Vec3));
+  REQUIRE_MESSAGE(scene.collider.query(given, scene.workspace, to) == BODICE_OK, bodice_last_error());
+  return found;
+}
+
 inline bodice::proxy::BodyProxy limb_proxy(bool relief) {
   const auto data = bodice_test::data_of(bodice_test::limb());
   return bodice_test::proxy_of(relief ? bodice_test::with_relief(data, 8, 0.002, 7) : data);

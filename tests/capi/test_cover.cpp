@@ -9,19 +9,6 @@
 
 using namespace capi_test;
 
-namespace {
-
-std::vector<bodice_contact> contacts_at(Scene& scene, const std::vector<bodice_test::Vec3>& points) {
-  std::vector<bodice_contact> found(points.size());
-  bodice_contacts to = bodice_default_contacts();
-  to.contact = found.data();
-  const bodice::Points given(points.size(), points.front().data(), sizeof(bodice_test::Vec3));
-  REQUIRE_MESSAGE(scene.collider.query(given, scene.workspace, to) == BODICE_OK, bodice_last_error());
-  return found;
-}
-
-}  // namespace
-
 TEST_CASE("capi: a collider covers the host's skin as the engine's does, until the next pose") {
   const Arm arm;
   const auto bound = arm.bound();

@@ -37,17 +37,6 @@ bodice_pose pose_of(const std::vector<float>& matrices, std::size_t count) {
   return pose;
 }
 
-std::vector<bodice_contact> contacts_of(const bodice::Collider& collider, bodice::Workspace& workspace,
-                                        std::vector<double>& world) {
-  std::vector<bodice_contact> found(world.size() / 3);
-  bodice::Particles particles(found.size());
-  particles.position(world.data());
-  bodice_contacts contacts = bodice_default_contacts();
-  contacts.contact = found.data();
-  REQUIRE(collider.query(particles, workspace, contacts) == BODICE_OK);
-  return found;
-}
-
 }  // namespace
 
 TEST_CASE(
@@ -75,16 +64,12 @@ TEST_CASE(
     }
     const bodice_pose pose = pose_of(matrices, truth.size());
     REQUIRE_MESSAGE(bodice_collider_move(scene.collider.get(), &pose) == BODICE_OK, bodice_last_error());
-    std::vector<double> world;
-    for (int i = 0; i < 200; ++i) {
-      const bodice_test::Vec3 p = bodice_test::random_vector(random, 0.6);
-      world.insert(world.end(), {p.x(), p.y(), p.z()});
-    }
-    const auto found = contacts_of(scene.collider, scene.workspace, world);
+    std::vector<bodice_test::Vec3> world;
+    for (int i = 0; i < 200; ++i) world.push_back(bodice_test::random_vector(random, 0.6));
+    const auto found = contacts_at(scene, world);
     double worst = 0.0;
     for (std::size_t i = 0; i < found.size(); ++i) {
-      const double exact =
-          bodice_test::brute_force(truth, {world[3 * i], world[3 * i + 1], world[3 * i + 2]}).signed_distance;
+      const double exact = bodice_test::brute_force(truth, world[i]).signed_distance;
       worst = std::max(worst, std::abs(exact - double{found[i].distance}));
     }
     CHECK(worst < 2e-6);
@@ -93,8 +78,8 @@ TEST_CASE(
 
 TEST_CASE("capi: a matrix that cannot be is named with its reason, and nothing moves") {
   Scene scene(limb_proxy(false));
-  std::vector<double> world = {0.1, 0.1, 0.0};
-  const float before = contacts_of(scene.collider, scene.workspace, world)[0].distance;
+  const std::vector<bodice_test::Vec3> world = {{0.1, 0.1, 0.0}};
+  const float before = contacts_at(scene, world)[0].distance;
   std::vector<float> good;
   for (int k = 0; k < 9; ++k) good.insert(good.end(), {1, 0, 0, 0.01f, 0, 1, 0, 0, 0, 0, 1, 0});
   const auto refused = [&](std::size_t at, float value, const char* reason) {
@@ -106,7 +91,7 @@ TEST_CASE("capi: a matrix that cannot be is named with its reason, and nothing m
     CAPTURE(sentence);
     CHECK(sentence.find("ellipsoid 5 ") != std::string::npos);
     CHECK(sentence.find(reason) != std::string::npos);
-    CHECK(contacts_of(scene.collider, scene.workspace, world)[0].distance == before);
+    CHECK(contacts_at(scene, world)[0].distance == before);
   };
   refused(3, std::numeric_limits<float>::quiet_NaN(), "is not finite");
   refused(0, -1.0f, "mirrors");
@@ -126,7 +111,7 @@ TEST_CASE("capi: a matrix that cannot be is named with its reason, and nothing m
   CHECK(bodice_collider_move(scene.collider.get(), &pose) == BODICE_OK);
   pose = pose_of(good, 9);
   CHECK(bodice_collider_move(scene.collider.get(), &pose) == BODICE_OK);
-  CHECK(contacts_of(scene.collider, scene.workspace, world)[0].distance != before);
+  CHECK(contacts_at(scene, world)[0].distance != before);
 }
 
 TEST_CASE("capi: a bound proxy follows the bones in every form of matrix, as the engine has it") {
@@ -174,25 +159,21 @@ TEST_CASE("capi: a bound proxy follows the bones in every form of matrix, as the
       for (int r = 0; r < 3; ++r) columns43.push_back(static_cast<float>(m(r, c)));
     }
   }
-  std::vector<double> world;
+  std::vector<bodice_test::Vec3> world;
   bodice::engine::Random random(4);
   REQUIRE(poser->pose({}, bent));
   for (const auto& shape : poser->posed().shapes)
-    for (int i = 0; i < 20; ++i) {
-      const bodice_test::Vec3 p = shape.center + bodice_test::random_vector(random, 0.1);
-      world.insert(world.end(), {p.x(), p.y(), p.z()});
-    }
-  const auto at_rest = contacts_of(scene.collider, scene.workspace, world);
+    for (int i = 0; i < 20; ++i) world.push_back(shape.center + bodice_test::random_vector(random, 0.1));
+  const auto at_rest = contacts_at(scene, world);
   REQUIRE(scene.engine.pose(poser->posed(), 0.0));
   const auto check = [&](const bodice_pose& pose) {
     REQUIRE_MESSAGE(bodice_collider_pose(scene.collider.get(), &pose) == BODICE_OK, bodice_last_error());
-    const auto found = contacts_of(scene.collider, scene.workspace, world);
+    const auto found = contacts_at(scene, world);
     std::size_t wrong = 0, moved = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
       float local[3];
       for (int axis = 0; axis < 3; ++axis)
-        local[axis] =
-            static_cast<float>(world[3 * i + static_cast<std::size_t>(axis)] - scene.engine.origin()[axis]);
+        local[axis] = static_cast<float>(world[i][axis] - scene.engine.origin()[axis]);
       wrong += std::abs(scene.engine.query(local).signed_distance - found[i].distance) > 2e-6f;
       moved += std::abs(found[i].distance - at_rest[i].distance) > 0.01f;
     }

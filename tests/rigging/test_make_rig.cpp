@@ -6,8 +6,8 @@
 #include <doctest/doctest.h>
 #include <bodice/body/joint.hpp>
 #include <bodice/engine/hash.hpp>
-#include <bodice/engine/random.hpp>
 #include <bodice_test/executors.hpp>
+#include <bodice_test/random_build.hpp>
 
 #include "follow.hpp"
 #include "posed.hpp"
@@ -28,17 +28,6 @@ rig::Rig rigged(const geometry::TriMesh& skin, const engine::Context& context = 
   auto found = rigging::make_rig(context, skin, analyzed(skin));
   REQUIRE_MESSAGE(found.ok(), (found.ok() ? "" : found.error().sentence()));
   return std::move(found->rig);
-}
-
-synth::BodyOptions random_options(std::uint64_t seed) {
-  engine::Random random(seed, 0x816);
-  synth::BodyOptions options;
-  options.sex = random.below(2) == 0 ? body::Sex::kFemale : body::Sex::kMale;
-  options.stature_m = random.uniform(1.5, 1.95);
-  options.mass_kg = random.uniform(18.5, 32.0) * options.stature_m * options.stature_m;
-  options.vertices = static_cast<int>(random.uniform(3000.0, 9000.0));
-  options.seed = seed + 100;
-  return options;
 }
 
 const Pose kPoses[] = {Pose::kA,      Pose::kT,   Pose::kArmsDown, Pose::kArmsUp,
@@ -132,7 +121,7 @@ TEST_CASE("joints are found near the true ones, in every pose") {
   std::vector<double> sum(std::size(bounds), 0.0), most(std::size(bounds), 0.0),
       count(std::size(bounds), 0.0);
   for (std::uint64_t seed = 0; seed < 16; ++seed) {
-    synth::BodyOptions options = random_options(seed);
+    synth::BodyOptions options = bodice_test::random_build(seed);
     options.pose = kPoses[seed % std::size(kPoses)];
     const synth::Body body = posed::made_body(options);
     const rig::Rig found = rigged(body.mesh);
@@ -167,7 +156,7 @@ TEST_CASE("a found rig that follows the true joints keeps the skin near the true
                              {Pose::kSit, 9.5, 32.0},
                              {Pose::kArmsUp, 4.0, 25.0}}) {
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
-      synth::BodyOptions options = random_options(seed);
+      synth::BodyOptions options = bodice_test::random_build(seed);
       const synth::Body before = posed::made_body(options);
       options.pose = bound.pose;
       const synth::Body after = posed::made_body(options);
