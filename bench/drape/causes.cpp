@@ -39,12 +39,13 @@ double depth_in(const collision::Collider& collider, const Vec3& world) {
   return -double{collider.query({p.x(), p.y(), p.z()}).signed_distance};
 }
 
-/// The proxy in the pose of a kept frame.
+/// The proxy in the pose of a kept frame, as the cloth met it.
 collision::Collider collider_in(const engine::Context& context, const Judged& j, std::size_t frame) {
   tryon::MotionPlayer player(j.motion, j.draped.report.ramp_s);
   std::vector<rig::Affine> joints(j.motion.rig.skeleton.joints.size());
   player.joints(j.draped.report.kept[frame].time_s, joints);
   binding::Poser poser = or_exit(binding::Poser::make(j.body.fit.proxy));
+  for (const auto& base : j.draped.bases) or_exit(poser.keep_base(base));
   or_exit(poser.pose(context, joints));
   collision::Collider collider(j.body.fit.proxy);
   collider.pose(poser.posed(), 0.0);

@@ -127,6 +127,7 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   report.hash = solver->hash();
   report.warnings.insert(report.warnings.end(), solver->warnings().begin(), solver->warnings().end());
   result.garments = recorder.take();
+  result.bases = *bases;
   if (options.fit_map) {
     report.fit_map = fit_scale(*options.fit_map, *fabric);
     drape.color(*report.fit_map, garments, result.garments);
