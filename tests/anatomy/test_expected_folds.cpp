@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <map>
 
 #include <bodice/synth/body.hpp>
 
@@ -20,10 +21,14 @@ struct Made {
   anatomy::Anatomy found;
 };
 
+/// A body in a pose and what is found on it, once for all cases; each changes a copy.
 Made made_in(synth::Pose pose) {
+  static std::map<synth::Pose, Made> made;
+  const auto known = made.find(pose);
+  if (known != made.end()) return known->second;
   auto truth = synth::make_body({}, {.pose = pose, .vertices = 5000});
   REQUIRE(truth.ok());
-  return {*truth, analyzed(truth->mesh)};
+  return made.emplace(pose, Made{*truth, analyzed(truth->mesh)}).first->second;
 }
 
 body::Landmark& landmark_of(anatomy::Anatomy& found, LandmarkId id) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include <nlohmann/json.hpp>
@@ -35,6 +36,17 @@ tryon::PreparedBody made_prop(const engine::Context& context, const geometry::Tr
   return std::move(prop).value();
 }
 
+const Vec3 kSeat_m(1.2, 0.45, 0.0);
+
+/// A chair beside the built-in body of a tier, fitted once for all cases.
+const tryon::PreparedBody& chair_at_seat(proxy::Tier tier) {
+  static std::map<proxy::Tier, tryon::PreparedBody> made;
+  const auto known = made.find(tier);
+  if (known != made.end()) return known->second;
+  return made.emplace(tier, made_prop({}, synth::make_chair(kSeat_m, 0.03), builtin_body(kVertices, tier)))
+      .first->second;
+}
+
 /// The built-in body, a chair beside it, and both as one proxy.
 struct BesideChair {
   const tryon::PreparedBody& body;
@@ -42,12 +54,18 @@ struct BesideChair {
   proxy::BodyProxy all;
 };
 
-BesideChair beside_chair() {
+BesideChair make_beside_chair() {
   const tryon::PreparedBody& body = bound_builtin_body(kVertices, proxy::Tier::kRelief);
   tryon::PreparedBody chair = made_prop({}, synth::make_chair({1.5, 0.45, 0.0}, 0.03), body);
   auto all = tryon::with_props(body.fit.proxy, {&chair, 1});
   REQUIRE_MESSAGE(all.ok(), all.error().sentence());
   return {body, std::move(chair), std::move(all).value()};
+}
+
+/// The same for every case of this file.
+const BesideChair& beside_chair() {
+  static const BesideChair made = make_beside_chair();
+  return made;
 }
 
 /// Makes a level cloth around a point, without pins.
@@ -64,9 +82,8 @@ TEST_CASE("cloth falls onto a prop beside the body, and through where it would b
     CAPTURE(std::string(proxy::name(tier)));
     const engine::Context context;
     const tryon::PreparedBody& body = builtin_body(kVertices, tier);
-    const Vec3 seat(1.2, 0.45, 0.0);
-    const tryon::PreparedBody chair = made_prop(context, synth::make_chair(seat, 0.03), body);
-    const tryon::WornGarment cloth = sheet_over(seat + Vec3(0.0, 0.06, 0.05), 0.3, 20);
+    const tryon::PreparedBody& chair = chair_at_seat(tier);
+    const tryon::WornGarment cloth = sheet_over(kSeat_m + Vec3(0.0, 0.06, 0.05), 0.3, 20);
     const auto alone = tryon::drape(context, body, {cloth}, {.frames = 40});
     const auto with = tryon::drape(context, body, {cloth}, {.frames = 40, .props = {&chair, 1}});
     REQUIRE(alone.ok());
@@ -90,7 +107,7 @@ TEST_CASE("cloth falls onto a prop beside the body, and through where it would b
     const synth::Thing boards = synth::make_thing({}, synth::ThingKind::kChair, 0.03);
     double deepest = 0.0;
     for (const Vec3& p : with->garments[0].frames.back())
-      deepest = std::max(deepest, -boards.distance(p - Vec3(seat.x(), 0.0, seat.z())));
+      deepest = std::max(deepest, -boards.distance(p - Vec3(kSeat_m.x(), 0.0, kSeat_m.z())));
     CHECK(report.end_m == doctest::Approx(deepest).epsilon(1e-6));
     const auto json = nlohmann::json::parse(tryon::report_json(body, &with->report, {}));
     CHECK(json["drape"]["props"][0]["ellipsoids"] == report.ellipsoids);
@@ -100,7 +117,7 @@ TEST_CASE("cloth falls onto a prop beside the body, and through where it would b
 TEST_CASE("a garment that begins inside a prop is refused with the depth") {
   const engine::Context context;
   const tryon::PreparedBody& body = builtin_body(kVertices, proxy::Tier::kSolid);
-  const tryon::PreparedBody chair = made_prop(context, synth::make_chair({1.2, 0.45, 0.0}, 0.03), body);
+  const tryon::PreparedBody& chair = chair_at_seat(proxy::Tier::kSolid);
   CHECK(chair.fit.proxy.tier() == proxy::Tier::kTight);
   CHECK(chair.fit.accuracy.gap_m.mean < 0.004);
   const auto through = sheet_over({1.2, 0.43, 0.0}, 0.3, 10);  // in the middle of the seat's 4 cm
@@ -130,7 +147,7 @@ TEST_CASE("a prop changes nothing of the body's own fit or of cloth that is far 
 
 TEST_CASE("a prop stays where it is while the joints of the body move") {
   const engine::Context context;
-  const auto [body, chair, all] = beside_chair();
+  const auto& [body, chair, all] = beside_chair();
   CHECK(all.binding()->joint_names.back() == proxy::kStillJoint);
 
   auto poser = binding::Poser::make(all), own = binding::Poser::make(body.fit.proxy);
@@ -155,7 +172,7 @@ TEST_CASE("a prop stays where it is while the joints of the body move") {
 
 TEST_CASE("beside a prop a body takes its base poses, and the prop keeps its tables") {
   const engine::Context context;
-  const auto [body, chair, all] = beside_chair();
+  const auto& [body, chair, all] = beside_chair();
   std::vector<engine::Warning> warnings;
   const auto motion = tryon::find_motion(context, body.skin, {.motion = "squat"}, warnings);
   REQUIRE(motion.ok());

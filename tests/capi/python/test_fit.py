@@ -1,6 +1,7 @@
 """bodice.fit and what comes with it, on the built-in body. Needs libbodice; skips aloud without numpy."""
 
 import contextlib
+import functools
 import io
 import math
 import os
@@ -28,6 +29,12 @@ class Fits(unittest.TestCase):
         skin = bodice.built_in(stature=1.7)
         cls.vertices, cls.faces = skin.vertices, skin.faces
         cls.body = bodice.fit(cls.vertices, cls.faces, "solid")
+
+    @classmethod
+    @functools.cache
+    def fine(cls):
+        """The same body in the default tier, relief, fitted once for the tests that only read it."""
+        return cls.body.skin.fit()
 
     def test_the_body_is_known(self):
         skin = self.body.skin
@@ -86,7 +93,7 @@ class Fits(unittest.TestCase):
         error = self.body.signed_distance(points) - self.body.signed_distance(points, exact=True)
         self.assertLess(np.abs(error).mean(), 2 * self.body.report["gap_mean_m"])
         self.assertGreater(np.abs(error).mean(), 0.3 * self.body.report["gap_mean_m"])
-        fine = self.body.skin.fit()
+        fine = self.fine()
         error = fine.signed_distance(points) - fine.signed_distance(points, exact=True)
         self.assertLess(np.abs(error).mean(), 0.001)
         self.assertEqual(bodice.loads(fine.to_bytes()).hash, fine.hash)
@@ -167,7 +174,7 @@ class Fits(unittest.TestCase):
             body.signed_distance(points, exact=True)
 
     def test_a_cover_raises_relief_to_points_above_it(self):
-        body = bodice.Body(bodice.fit(self.vertices, self.faces, "relief").to_bytes())
+        body = bodice.Body(self.fine().to_bytes())
         at = body.contacts(self.vertices)
         above = at.point + 0.002 * at.normal
         self.assertGreater(body.cover(above), 0.9 * len(above))
