@@ -7,6 +7,7 @@
 #include <bodice/synth/body.hpp>
 
 #include "analyze/expected_folds.hpp"
+#include "analyze/low_armpits.hpp"
 #include "analyze/upright_height.hpp"
 #include "analyzed.hpp"
 #include "check/fold_levels.hpp"
@@ -77,14 +78,60 @@ TEST_CASE("an armpit that lies too low shows a web where the skin closes holes")
   Made made = made_in(synth::Pose::kArmsDown);
   const geometry::Vec3 truth = landmark_of(made.found, LandmarkId::kArmpitL).position;
   landmark_of(made.found, LandmarkId::kArmpitL).position -= 0.05 * made.found.stature_m * made.found.up;
-  CHECK(anatomy::webs_by_level({}, made.found).empty());
+  // Without skin around the armpit, the room inside the body is no evidence.
+  CHECK(anatomy::webs_by_level({}, {}, {}, made.found).empty());
   const std::vector<std::uint8_t> closed(4, 1);
   anatomy::Options options;
   options.made_up = closed;
-  const auto webs = anatomy::webs_by_level(options, made.found);
+  const auto webs = anatomy::webs_by_level({}, {}, options, made.found);
   REQUIRE(webs.size() == 1);
   CHECK(webs[0].id == LandmarkId::kArmpitL);
   CHECK(std::abs((webs[0].fold - truth).dot(made.found.up)) < 0.02 * made.found.stature_m);
+}
+
+TEST_CASE("an armpit that is a little too low by limbs and by the room inside the body is found by both") {
+  const Made made = made_in(synth::Pose::kArmsDown);
+  const geometry::TriMesh& skin = made.truth.mesh;
+  const auto was_below = anatomy::folds_below_expected(made.found.landmarks);
+  REQUIRE(was_below);
+  CHECK(std::ranges::max(anatomy::armpits_too_low({}, skin, made.found)) == 0.0);
+  CHECK(anatomy::webs_by_level({}, skin, {}, made.found).empty());
+  for (std::size_t side = 0; side < 2; ++side) {
+    CAPTURE(side);
+    const LandmarkId id = body::of_side(LandmarkId::kArmpitL, static_cast<int>(side));
+    anatomy::Anatomy low = made.found;
+    const geometry::Vec3 truth = landmark_of(low, id).position;
+    const double lower = 0.022 - (*was_below)[side];
+    landmark_of(low, id).position -= lower * low.stature_m * low.up;
+    REQUIRE(anatomy::fold_misfit(low.landmarks) <= 1.0);
+    const auto up = anatomy::armpits_too_low({}, skin, low);
+    CHECK(std::abs(up[side] - lower) < 0.01);
+    CHECK(up[1 - side] == 0.0);
+
+    const auto webs = anatomy::webs_by_level({}, skin, {}, low);
+    REQUIRE(webs.size() == 1);
+    CHECK(webs[0].id == id);
+    CHECK(std::abs((webs[0].fold - truth).dot(low.up)) < 0.01 * low.stature_m);
+    const auto folds = anatomy::expected_folds({}, skin, low);
+    const auto fold = std::ranges::find(folds, id, &anatomy::Fold::id);
+    REQUIRE(fold != folds.end());
+    CHECK(std::abs((fold->at - truth).dot(low.up)) < 0.01 * low.stature_m);
+  }
+}
+
+TEST_CASE("an armpit that is still too low by both is doubted once") {
+  const Made made = made_in(synth::Pose::kArmsDown);
+  anatomy::Anatomy low = made.found;
+  const auto doubts = [&] {
+    return std::ranges::count(low.warnings, "armpit-uncertain", &engine::Warning::code);
+  };
+  anatomy::doubt_low_armpits({}, made.truth.mesh, low);
+  CHECK(doubts() == 0);
+  landmark_of(low, LandmarkId::kArmpitR).position -= 0.03 * low.stature_m * low.up;
+  for (int again = 0; again < 2; ++again) anatomy::doubt_low_armpits({}, made.truth.mesh, low);
+  CHECK(doubts() == 1);
+  CHECK(low.warnings.back().part == body::name(body::Part::kUpperArmR));
+  CHECK(landmark_of(low, LandmarkId::kArmpitR).confidence < 0.5);
 }
 
 TEST_CASE("the height by joints holds for bodies that stand or stride, also where a web lowers the crotch") {

@@ -5,6 +5,7 @@
 #include <bodice/geometry/fins.hpp>
 
 #include "analyze/cut_welds.hpp"
+#include "analyze/low_armpits.hpp"
 #include "check/diagnostics.hpp"
 #include "check/flat_parts.hpp"
 #include "check/fold_doubts.hpp"
@@ -160,7 +161,9 @@ engine::Result<Anatomy> analyze(const engine::Context& context, const geometry::
   if (mesh.empty()) return no_body("the mesh has no triangles.");
   return engine::catch_canceled("The analysis of the body", [&] {
     auto found = checked(mesh, cut_welds(context, mesh, options, analyze_mesh), options.force);
-    if (found) doubt_folds(options, *found);
+    if (!found) return found;
+    doubt_folds(options, *found);
+    if (was_cut(*found) || was_closed(options)) doubt_low_armpits(context, mesh, *found);
     return found;
   });
 }

@@ -13,6 +13,7 @@
 #include "analyze/folds_hidden.hpp"
 #include "analyze/thin_copy.hpp"
 #include "analyze/weld_signs.hpp"
+#include "check/fold_doubts.hpp"
 #include "check/fold_levels.hpp"
 #include "check/named_folds.hpp"
 #include "check/thighs.hpp"
@@ -277,13 +278,16 @@ engine::Result<Anatomy> cut_welds(const engine::Context& context, const TriMesh&
   const std::vector<Web> seen =
       as_is ? find_webs(context, mesh, *as_is, options.made_up) : std::vector<Web>{};
   const bool welded = is_welded(as_is), by_level = !welded && seen.empty();
-  const std::vector<Web> webs = by_level ? webs_by_level(options, *as_is) : seen;
+  const std::vector<Web> webs = by_level ? webs_by_level(context, mesh, options, *as_is) : seen;
   if (!welded && webs.empty()) return as_is;
   const MeshDistance distance(context, mesh);
   if (auto skin = SampledSkin::make(mesh, distance)) {
     const WeldedBody body{context, mesh, distance, *skin, options, analyze};
     auto apart = welded ? std::nullopt : webs_apart(body, webs, as_is);
+    const bool as_given = by_level && !was_closed(options);
     if (by_level && !(apart && fold_misfit(apart->landmarks) < fold_misfit(as_is->landmarks))) return as_is;
+    if (as_given && !folds_fit(*apart)) return as_is;
+    if (as_given) doubt_moved_folds(*as_is, *apart);
     if (!apart) apart = welds_apart(body, seen, as_is);
     if (apart) return std::move(*apart);
   }

@@ -1,9 +1,11 @@
 #include "analyze/expected_folds.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
+#include "analyze/low_armpits.hpp"
 #include "check/fold_doubts.hpp"
 #include "check/fold_levels.hpp"
 #include "check/named_folds.hpp"
@@ -24,13 +26,16 @@ double doubtful(body::LandmarkId id) {
 std::vector<Fold> expected_folds(const engine::Context& context, const geometry::TriMesh& skin,
                                  const Anatomy& found) {
   const auto below = folds_below_expected(found.landmarks);
-  if (!below || fold_misfit(found.landmarks) <= 1.0) return {};
+  if (!below) return {};
+  const std::array<double, 2> low = armpits_too_low(context, skin, found);
+  if (fold_misfit(found.landmarks) <= 1.0 && std::ranges::max(low) <= 0.0) return {};
   std::vector<Fold> folds = find_folds(context, skin, found);
   for (std::size_t i = 0; i < kNamedFolds.size(); ++i) {
     const body::LandmarkId id = kNamedFolds[i].id;
-    if (std::abs((*below)[i]) <= doubtful(id)) continue;
+    const bool far = std::abs((*below)[i]) > doubtful(id), up = i < low.size() && low[i] > 0.0;
+    if (!far && !up) continue;
     Fold moved = fold_at(found, id);
-    moved.at += (*below)[i] * found.stature_m * moved.inward;
+    moved.at += (far ? (*below)[i] : low[i]) * found.stature_m * moved.inward;
     *std::ranges::find(folds, id, &Fold::id) = moved;
   }
   return folds;
@@ -50,15 +55,20 @@ void doubt_moved_folds(const Anatomy& before, Anatomy& after) {
   }
 }
 
-std::vector<Web> webs_by_level(const Options& options, const Anatomy& found) {
+std::vector<Web> webs_by_level(const engine::Context& context, const geometry::TriMesh& skin,
+                               const Options& options, const Anatomy& found) {
   std::vector<Web> webs;
   const auto below = folds_below_expected(found.landmarks);
-  if (!below || !may_hide_folds(options, found)) return webs;
+  if (!below) return webs;
+  const bool hidden = may_hide_folds(options, found);
+  const std::array<double, 2> low = armpits_too_low(context, skin, found);
   for (std::size_t i = 0; i < kNamedFolds.size(); ++i) {
     const body::LandmarkId id = kNamedFolds[i].id;
-    if ((*below)[i] <= doubtful(id)) continue;
+    const bool far = hidden && (*below)[i] > doubtful(id);
+    const double up = far ? (*below)[i] : i < low.size() ? low[i] : 0.0;
+    if (!(up > 0.0)) continue;
     const Fold edge = fold_at(found, id);
-    webs.push_back({id, edge.at, edge.at + (*below)[i] * found.stature_m * edge.inward});
+    webs.push_back({id, edge.at, edge.at + up * found.stature_m * edge.inward});
   }
   return webs;
 }

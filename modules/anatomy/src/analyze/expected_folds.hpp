@@ -8,7 +8,8 @@
 namespace bodice::inline v0_1::anatomy {
 
 /// The folds of a body with limbs that were parted. Those that are far from where limbs and trunk let expect
-/// them lie there instead. Empty if none is. Cost: as find_folds.
+/// them lie there instead; armpits that the room inside the body has too low as well lie between both. Empty
+/// if none is. Cost: as find_folds.
 std::vector<Fold> expected_folds(const engine::Context& context, const geometry::TriMesh& skin,
                                  const Anatomy& found);
 
@@ -16,7 +17,9 @@ std::vector<Fold> expected_folds(const engine::Context& context, const geometry:
 /// what misled the first look may mislead the second.
 void doubt_moved_folds(const Anatomy& before, Anatomy& after);
 
-/// The webs that show by the levels of folds alone, on a skin that was closed or hides both armpits.
-std::vector<Web> webs_by_level(const Options& options, const Anatomy& found);
+/// The webs that show by the levels of folds: alone, on a skin that was closed or hides both armpits; at
+/// armpits of any skin together with the room inside the body.
+std::vector<Web> webs_by_level(const engine::Context& context, const geometry::TriMesh& skin,
+                               const Options& options, const Anatomy& found);
 
 }  // namespace bodice::anatomy

@@ -45,6 +45,8 @@ void doubt_neck(Anatomy& anatomy) {
              ", seen from all sides, shows it.", anatomy);
 }
 
+}  // namespace
+
 bool was_cut(const Anatomy& anatomy) {
   return std::ranges::any_of(anatomy.warnings,
                              [](const engine::Warning& w) { return w.code == "limbs-cut"; });
@@ -53,8 +55,6 @@ bool was_cut(const Anatomy& anatomy) {
 bool was_closed(const Options& options) {
   return std::ranges::any_of(options.made_up, [](std::uint8_t made_up) { return made_up != 0; });
 }
-
-}  // namespace
 
 bool may_hide_folds(const Options& options, const Anatomy& anatomy) {
   const auto below = folds_below_expected(anatomy.landmarks);

@@ -10,6 +10,12 @@ namespace bodice::inline v0_1::anatomy {
 /// and unlike folds. Of skins that were cut, the neck is doubted as well, where it looks unlike one.
 void doubt_folds(const Options& options, Anatomy& anatomy);
 
+/// Whether limbs were cut apart.
+bool was_cut(const Anatomy& anatomy);
+
+/// Whether some of the skin closes holes.
+bool was_closed(const Options& options);
+
 /// Whether webs may hide folds that no room inside the body shows: where the skin was closed, or hides both
 /// armpits.
 bool may_hide_folds(const Options& options, const Anatomy& anatomy);

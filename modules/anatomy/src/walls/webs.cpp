@@ -215,16 +215,23 @@ double least_of(const TriMesh& skin, const Anatomy& found, std::span<const std::
   return crotch ? least.crotch : least.armpit;
 }
 
-std::optional<Web> find_web(const engine::Context& context, const TriMesh& skin, const Anatomy& found,
-                            std::span<const std::uint8_t> made_up, LandmarkId id) {
+/// Moves the route's start to the skin, between the limbs. Returns how far inward from there their fold lies.
+std::optional<double> height_along(const engine::Context& context, const TriMesh& skin, const Anatomy& found,
+                                   LandmarkId id, Route& route) {
   const bool crotch = id == LandmarkId::kPerineum;
-  Route route = route_inward(found, id);
   const MeshDistance near(context, crop(skin, route.from, kAround * found.stature_m));
   if (const auto hit = near.closest_point_within(route.from, kAround * found.stature_m))
     route.from = hit->point;
   if (crotch) route.from += found.stature_m * middle_of(Room(near, route, found.stature_m)) * route.across;
   const Room room(near, route, found.stature_m);
-  const std::optional<double> height = crotch ? crotch_height(room) : fold_height(room);
+  return crotch ? crotch_height(room) : fold_height(room);
+}
+
+std::optional<Web> find_web(const engine::Context& context, const TriMesh& skin, const Anatomy& found,
+                            std::span<const std::uint8_t> made_up, LandmarkId id) {
+  const bool crotch = id == LandmarkId::kPerineum;
+  Route route = route_inward(found, id);
+  const std::optional<double> height = height_along(context, skin, found, id, route);
   if (!height || *height < least_of(skin, found, made_up, route.from, crotch)) return std::nullopt;
   return Web{id, route.from, route.from + (*height + kOwnRoom) * found.stature_m * route.inward};
 }
@@ -243,6 +250,12 @@ Vec3 crotch_fold(const engine::Context& context, const TriMesh& skin, const Anat
 Fold fold_at(const Anatomy& found, LandmarkId id) {
   const Route route = route_inward(found, id);
   return {id, route.from, route.inward};
+}
+
+std::optional<double> web_height(const engine::Context& context, const TriMesh& skin, const Anatomy& found,
+                                 LandmarkId id) {
+  Route route = route_inward(found, id);
+  return height_along(context, skin, found, id, route);
 }
 
 std::vector<Fold> find_folds(const engine::Context& context, const TriMesh& skin, const Anatomy& found) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,11 @@ Fold fold_at(const Anatomy& found, body::LandmarkId id);
 /// a copy on which they are apart.
 std::vector<Fold> find_folds(const engine::Context& context, const geometry::TriMesh& skin,
                              const Anatomy& found);
+
+/// How far above a landmark the room inside the body shows its fold, as a fraction of the stature; on whole
+/// bodies mostly some .01 below it. Empty where no level is as deep between the limbs as in them.
+std::optional<double> web_height(const engine::Context& context, const geometry::TriMesh& skin,
+                                 const Anatomy& found, body::LandmarkId id);
 
 /// The webs at the armpits and the crotch where `found` has them. Inside the body, a plane between two limbs
 /// has less room than the limbs beside it; above their fold it has as much. `made_up`: #V or empty, the

@@ -1,0 +1,55 @@
+#include "analyze/low_armpits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "check/fold_levels.hpp"
+#include "check/named_folds.hpp"
+
+namespace bodice::inline v0_1::anatomy {
+namespace {
+
+/// Limbs and trunk are no evidence below this, a deviation of whole bodies; the room is not measured then.
+constexpr double kLeastBelow = 0.01;
+/// Both kinds of evidence together: more than this is hardly seen on whole bodies.
+constexpr double kTogether = 0.02;
+/// The room shows the fold of a whole body so far below its armpit.
+constexpr double kRoomBelow = 0.01;
+
+bool in_doubt(const Anatomy& anatomy, const NamedFold& fold) {
+  return std::ranges::any_of(anatomy.warnings, [&](const engine::Warning& w) {
+    return w.code == fold.code && w.part == body::name(fold.part);
+  });
+}
+
+}  // namespace
+
+std::array<double, 2> armpits_too_low(const engine::Context& context, const geometry::TriMesh& skin,
+                                      const Anatomy& found) {
+  std::array<double, 2> up{};
+  const auto below = folds_below_expected(found.landmarks);
+  if (!below) return up;
+  for (std::size_t side = 0; side < up.size(); ++side) {
+    const double by_limbs = (*below)[side];
+    if (by_limbs < kLeastBelow) continue;
+    const auto by_room = web_height(context, skin, found, kNamedFolds[side].id);
+    if (by_room && by_limbs + *by_room > kTogether) up[side] = 0.5 * (by_limbs + *by_room + kRoomBelow);
+  }
+  return up;
+}
+
+void doubt_low_armpits(const engine::Context& context, const geometry::TriMesh& skin, Anatomy& anatomy) {
+  const std::array<double, 2> up = armpits_too_low(context, skin, anatomy);
+  for (std::size_t side = 0; side < up.size(); ++side) {
+    const NamedFold& fold = kNamedFolds[side];
+    if (!(up[side] > 0.0) || in_doubt(anatomy, fold)) continue;
+    doubt_fold(
+        fold,
+        std::to_string(std::lround(1e3 * up[side])) +
+            " thousandths of the stature lower than limbs, trunk and the room inside the body let expect.",
+        ", seen from all sides, shows it.", anatomy);
+  }
+}
+
+}  // namespace bodice::anatomy
