@@ -87,3 +87,28 @@ TEST_CASE("pairs: the leaves of a folded patch are noted when a substep ends, an
     CHECK(strip.folded == std::vector<std::uint8_t>(2, degrees > 120.0));
   }
 }
+
+TEST_CASE(
+    "pairs: leaves with boxes that overlap, without a pair, are looked at again once they may be near") {
+  // Two triangles that lie over each other at 45 degrees, 6 mm apart.
+  constexpr double kApart_m = 6e-3, kSide_m = 20e-3;
+  const Vec3 along = Vec3(1, 1, 0).normalized(), across = Vec3(-1, 1, 0).normalized();
+  TriMesh mesh;
+  for (const double height_m : {0.0, kApart_m}) {
+    const auto first = static_cast<Index>(mesh.positions.size());
+    for (const Vec3& corner : {Vec3(0, 0, 0), Vec3(kSide_m * along), Vec3(0, 0, kSide_m)})
+      mesh.positions.push_back(corner + height_m * across);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  const cloth::ContactMesh leaves = cloth::make_contact_mesh(mesh);
+  REQUIRE(leaves.leaves() == 2);
+  const std::vector<cloth::Point> at = points_of(mesh.positions);
+  const std::vector<std::uint8_t> folded(2);
+  constexpr float kSlack_m = 1.6e-3f;
+  cloth::PairTask task;
+  cloth::PairGroup group = cloth::new_group(leaves, 0, 1, 0.0f);
+  cloth::find_pairs(leaves, {kGap_m, kSlack_m, 0.0f, at, folded}, group, task);
+  CHECK(group.begin == group.end);
+  CHECK(group.find_m > kSlack_m);
+  CHECK(double{group.find_m} == doctest::Approx(kApart_m - double{kGap_m}).epsilon(1e-3));
+}

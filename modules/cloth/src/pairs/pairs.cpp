@@ -155,14 +155,12 @@ void add_groups(std::span<const PairGroup> groups, PairTask& task) {
 void wake_groups(const ContactMesh& mesh, std::span<const float> off_m, PairTask& task) {
   task.woken.clear();
   for (const ClearGroup& group : task.clear) {
-    if (off_m[group.leaf[0]] + off_m[group.leaf[1]] < group.room_m) continue;
+    if (group.holds(off_m)) continue;
     task.woken.push_back(new_group(mesh, group.leaf[0], group.leaf[1], 0.0f));
   }
   if (task.woken.empty()) return;
   add_groups(task.woken, task);
-  std::erase_if(task.clear, [&](const ClearGroup& group) {
-    return !(off_m[group.leaf[0]] + off_m[group.leaf[1]] < group.room_m);
-  });
+  std::erase_if(task.clear, [&](const ClearGroup& group) { return !group.holds(off_m); });
 }
 
 void find_groups(const engine::Context& context, const ContactMesh& mesh, const SweepTree& tree,

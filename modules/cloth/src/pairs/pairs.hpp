@@ -45,9 +45,11 @@ struct PairGroup {
 /// Two leaves that need no pairs yet.
 struct ClearGroup {
   std::uint32_t leaf[2];
-  /// What they are farther apart than the gap on the paths expected of them. While they are off these by less
-  /// in sum, none of their parts comes nearer than the gap.
-  float room_m;
+  float room_m;  ///< how much farther apart they are than the gap on the paths expected of them
+
+  /// Whether none of their parts comes nearer than the gap while leaves are off these paths by `off_m`,
+  /// #leaves.
+  bool holds(std::span<const float> off_m) const { return off_m[leaf[0]] + off_m[leaf[1]] < room_m; }
 };
 
 /// What groups are in order of.
@@ -99,13 +101,13 @@ std::vector<PairTask> make_pair_tasks(const ContactMesh& mesh);
 /// A group of two leaves that is listed for the first time, and that are `room_m` farther apart than the gap.
 PairGroup new_group(const ContactMesh& mesh, std::size_t leaf, std::size_t other, float room_m);
 
-/// Adds groups to a task, which are in order.
+/// Merges groups, which are in order, into those of a task.
 void add_groups(std::span<const PairGroup> groups, PairTask& task);
 
-/// Lists the groups of all leaves that come nearer than `reach_m` on the sweeps of the tree, which are those
-/// of the expected paths. What stays apart on these is clear. Of all others, those that were listed before
-/// keep their pairs; new ones have none, and need none until they moved by their distance, less the gap. The
-/// same for any number of workers.
+/// Lists the groups of all leaves that come nearer than `reach_m` on the sweeps of the tree, which bound the
+/// expected paths. Leaves that stay apart on these are clear. Other groups that were listed before keep their
+/// pairs. New ones have none, and need none until they moved by their distance, less the gap. The result is
+/// the same for any number of workers.
 void find_groups(const engine::Context& context, const ContactMesh& mesh, const SweepTree& tree,
                  float reach_m, float gap_m, std::vector<PairTask>& tasks);
 

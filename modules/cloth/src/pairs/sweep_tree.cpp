@@ -50,12 +50,11 @@ std::size_t set_parent(std::size_t quad, SweepTree& tree) {
 
 SweepTree make_sweep_tree(const ContactMesh& mesh) {
   SweepTree tree;
-  tree.leaves = mesh.leaves();
-  while (4 * tree.leaves_a_lane < tree.leaves) {
+  while (4 * tree.leaves_a_lane < mesh.leaves()) {
     tree.first_leaf_quad = 4 * tree.first_leaf_quad + 1;
     tree.leaves_a_lane *= 4;
   }
-  tree.leaf.assign(tree.leaves, no_sweep());
+  tree.leaf.assign(mesh.leaves(), no_sweep());
   SweepQuad empty;
   for (std::size_t lane = 0; lane < 4; ++lane) set_lane(empty, lane, no_sweep());
   tree.quad.assign(tree.first_leaf_quad + tree.leaves_a_lane, empty);

@@ -23,17 +23,16 @@ struct Sweep {
   Float4 move_low, move_high;  ///< displacements, meters
 };
 
-/// Four sweeps: lane k of each value, which there are one of an axis, is that of sweep k.
+/// Four sweeps by axis: lane k of each vector belongs to sweep k.
 struct SweepQuad {
   Float4 low[3], high[3], move_low[3], move_high[3];
 };
 
 /// The hierarchy. Quad 0 is the root, and lane k of quad q bounds quad 4 q + 1 + k, or holds a leaf.
 struct SweepTree {
-  std::size_t leaves = 0;           ///< how many the garment has; all further ones are empty
   std::size_t first_leaf_quad = 0;  ///< quads from this one on hold leaves
   std::size_t leaves_a_lane = 1;    ///< how many leaves a lane of the root bounds
-  std::vector<Sweep> leaf;          ///< #leaves
+  std::vector<Sweep> leaf;          ///< #leaves of the garment; lanes beyond these are empty
   std::vector<SweepQuad> quad;      ///< #quads
 };
 
@@ -132,14 +131,14 @@ void for_each_near_quad(const SweepTree& tree, const Sweep& own, std::size_t fir
   }
 }
 
-/// Calls visit(leaf) for each lane of a quad of leaves with its bit set. A position that is not a number is
-/// near everything, lanes without a leaf included; these are left out, and those before `first`.
+/// Calls visit(leaf, lane) for each lane of a quad of leaves with its bit set. A position that is not a
+/// number is near everything, lanes without a leaf included; these are left out, and those before `first`.
 template <class Visit>
 void for_each_leaf(const SweepTree& tree, std::size_t quad, unsigned near, std::size_t first, Visit&& visit) {
   for (; near != 0; near &= near - 1u) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(near));
     const std::size_t leaf = 4 * (quad - tree.first_leaf_quad) + lane;
-    if (leaf >= first && leaf < tree.leaves) visit(leaf, lane);
+    if (leaf >= first && leaf < tree.leaf.size()) visit(leaf, lane);
   }
 }
 

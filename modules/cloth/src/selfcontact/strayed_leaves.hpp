@@ -35,7 +35,7 @@ StrayedLeaves make_strayed_leaves(std::size_t particles, const ContactMesh& mesh
 /// Lists the further groups of leaves with particles that are farther off their expected paths than `most_m`,
 /// as strays() found, and allows these particles to be as far from there. Returns false, with nothing listed,
 /// where so many strayed that all groups should be searched anew, or where the tree does not have the sweeps
-/// of the last search. O(#P), and O(log #leaves) a leaf that strayed and a group that it may be near.
+/// of the last search. Cost: O(#P), and O(log #leaves) for each leaf that strayed and each group near it.
 bool list_strayed(float since_s, float most_m, SelfContact& self);
 
 }  // namespace bodice::cloth

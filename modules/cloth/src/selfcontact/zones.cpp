@@ -13,9 +13,9 @@ namespace {
 
 // What remains of a pair's distance after a substep at least: this share of it, or of its gap.
 constexpr float kKept = 0.2f, kKeptOfGap = 0.02f;
-// Parts that the body presses together for many substeps come no nearer than kNear_m, and keep this share
-// of less. A hundred roundings of a position are as long, so that their normal is still right; nearer than
-// kTouching_m there is none, and contact could not hold them apart.
+// Parts that the body presses together for many substeps come no nearer than kNear_m; parts that are nearer
+// keep this share of their distance. kNear_m is a hundred roundings of a position, so that the normal is
+// still right. Parts nearer than kTouching_m have no normal, and contact could not hold them apart.
 constexpr float kNear_m = 5e-6f, kKeptOfNear = 0.9f;
 
 // The distance that pairs which would cross are pushed apart to, a share of their gap.

@@ -107,7 +107,7 @@ struct DrapeResult {
   rig::Clip clip;  ///< what the body played in all frames, laps and seams included; empty if it stands still
   std::vector<std::vector<geometry::Vec3>> body_frames;  ///< skin of a body that moves at each kept frame, #V
   std::vector<std::vector<geometry::Ellipsoid>> proxy_frames;  ///< its ellipsoids at each kept frame, #E
-  proxy::BasePoses bases;  ///< of the proxy along the clip, as far as it was played; empty if not prepared
+  proxy::BasePoses bases;  ///< base poses along the clip as far as it was played; empty if not prepared
   std::optional<proxy::BodyProxy> proxy;  ///< of body and props, which the cloth met; absent without props
   DrapeReport report;
 };
