@@ -1,4 +1,4 @@
-// What a frame's contact with the body begins with.
+// The body and the distances that its contact with cloth needs in a frame.
 #pragma once
 
 #include <bodice/collision/collider.hpp>
@@ -11,8 +11,8 @@ struct ContactFrame {
   bool moving = false;                        ///< whether any ellipsoid of the body has a velocity
   double length_s = 0.0;                      ///< of the frame
   double thickness_m = 0.0;                   ///< distance that the cloth keeps from the body
-  /// Expected longest travel of a particle, which bounds the queried distances. A particle that travels
-  /// farther is handled correctly.
+  /// The longest expected travel of a particle in the frame, which bounds the queried distances. A particle
+  /// that travels farther is handled correctly, but costs more.
   double travel_m = 0.0;
 
   /// The body if it moves, else null.

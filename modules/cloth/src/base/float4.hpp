@@ -26,7 +26,7 @@ struct alignas(16) Point {
 /// The upper half of a float (bfloat16): its range with three digits, which suffice for constants of fabrics.
 enum class Half : std::uint16_t {};
 
-/// Rounds a finite value to the nearest.
+/// Rounds a finite value to the nearest Half.
 inline Half to_half(double value) {
   const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
   return Half{static_cast<std::uint16_t>((bits + 0x8000u) >> 16)};

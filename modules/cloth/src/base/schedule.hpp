@@ -63,8 +63,8 @@ std::size_t block_size(std::size_t particles);
 /// share one.
 std::size_t idle_particles(std::size_t particles);
 
-/// Schedules constraints; `members` holds `arity` particles (< particle_count) for each. O(#C arity + #blocks
-/// #P).
+/// Makes the schedule of constraints. `members` holds `arity` particles (< particle_count) for each
+/// constraint. Cost: O(#C arity + #blocks #P).
 Schedule make_schedule(std::span<const geometry::Index> members, std::size_t arity,
                        std::size_t particle_count, std::size_t pack = kPack);
 

@@ -61,7 +61,7 @@ HWY_INLINE void solve_hinges(HingePack<Id>& pack, std::size_t first, const YarnF
   read_hinges(pack, first, p, at, weight);
   const Bent bent = measure_bend(read(&pack.rest_m[first]), at, weight);
   const Lanes compliance = read(&pack.compliance[first]), slip = yarn.slip_n * compliance;
-  // The held value follows at a distance of at most `slip`; NaN does not change it.
+  // The held value stays within `slip` of the hinge's value. A value that is NaN leaves it unchanged.
   const Lanes held = smaller(bent.value + slip, larger(bent.value - slip, read(&pack.held[first])));
   write(&pack.held[first], held);
   // The springs to the rest shape and to the held value are combined into one.

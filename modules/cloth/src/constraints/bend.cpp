@@ -3,9 +3,10 @@
 // Differs: under isometry the vector K x is as long as edge * angle and lies along the hinge's normal n. The
 // constraint is the signed number n . K x, which keeps a curved rest shape and costs one normal; its gradient
 // holds n fixed. The energy is B (K x)^2 / (2 A), with A the area of both triangles: a strip of width e, bent
-// by the angle t at folds h apart, stores B t^2 e / (2 h), and e h = A. Based on: Paul Dahl. A Solid Friction
-// Model. 1968. (friction between yarns) Differs: a second spring pulls the hinge to the value at which it is
-// held. Above a moment the held value slips at once, so that small swings of a fold end.
+// by the angle t at folds h apart, stores B t^2 e / (2 h), and e h = A.
+// Based on: Paul Dahl. A Solid Friction Model. 1968. (friction between yarns)
+// Differs: a second spring pulls the hinge to the value at which it is held. Above a moment the held value
+// slips at once, so that small swings of a fold end.
 #include "constraints/bend.hpp"
 
 #include <algorithm>
@@ -24,8 +25,8 @@ namespace {
 // others.
 constexpr double kMaxCotangent = 1e3;
 
-// Stiffness of friction's spring, in bending stiffnesses: it slips after a bend that is too slight to be
-// visible.
+// The stiffness of friction's spring, as a multiple of the bending stiffness. It is so stiff that friction
+// slips after a bend too slight to be visible.
 constexpr float kStick = 20.0f;
 
 double cotangent(const Vec3& corner, const Vec3& u, const Vec3& v) {

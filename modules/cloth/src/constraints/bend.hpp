@@ -27,10 +27,12 @@ struct HingePack {
 static_assert(sizeof(HingePack<Local>) ==
               24 * kPack);  // memory bandwidth bounds a sweep over a large garment
 
-/// Friction between yarns: a second spring, to the value at which a hinge is held.
+/// Friction between yarns. A second spring pulls each hinge toward a held value, which follows the hinge once
+/// the spring's force exceeds a limit.
 struct YarnFriction {
-  float soften = 1.0f;  ///< compliance of both springs together, in compliances of bending
-  float slip_n = 0.0f;  ///< the held value follows a hinge at this distance, in compliances
+  float soften = 1.0f;  ///< compliance of both springs together, as a share of the bending compliance alone
+  float slip_n = 0.0f;  ///< force at which the held value slips; times a hinge's compliance, its largest
+                        ///< distance from the hinge
 };
 
 /// All hinges of a garment.

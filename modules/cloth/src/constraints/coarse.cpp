@@ -14,7 +14,7 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-// Solves a pack of ties; true if one was too long.
+// Solves a pack of ties; returns whether one was too long.
 bool pull_pack(CoarseLevel& level, std::size_t pack) {
   const std::size_t first = pack * kTiePack;
   const Index *a = &level.ties.a[first], *b = &level.ties.b[first];
@@ -40,7 +40,7 @@ bool pull_pack(CoarseLevel& level, std::size_t pack) {
   return true;
 }
 
-// Makes a sweep over all ties; true if one was too long.
+// Makes a sweep over all ties; returns whether one was too long.
 bool pull(const engine::Context& context, CoarseLevel& level) {
   const Schedule& schedule = level.ties.schedule;
   std::atomic<bool> pulled{false};

@@ -15,8 +15,8 @@ namespace bodice::inline v0_1::cloth {
 
 inline constexpr std::size_t kParents = 4;     ///< nodes that move a particle
 inline constexpr std::size_t kMostLevels = 2;  ///< coarse levels
-inline constexpr std::size_t kTiePack =
-    4;  ///< ties solved together; there are few, and larger packs were half idle
+/// Ties that are solved together: there are so few that half of a larger pack would be idle.
+inline constexpr std::size_t kTiePack = 4;
 
 /// The nodes that move a particle.
 struct Parents {
@@ -41,9 +41,10 @@ struct Ties {
 struct CoarseLevel {
   int sweeps = 1;           ///< the most sweeps over the ties a substep
   std::vector<Index> node;  ///< #N: the particle at each node
-  std::vector<Point>
-      at;  ///< #N, then points for idle slots; the weight is the inverse of the represented mass
-  std::vector<Point> move;  ///< #N, meters: where a solution begins, and after it the displacement
+  /// #N, then points for idle slots; the weight is the inverse of the represented mass.
+  std::vector<Point> at;
+  /// #N, meters: at first the position where the solution begins, then the displacement.
+  std::vector<Point> move;
   Ties ties;
   std::vector<Parents> parents;    ///< #P
   std::vector<Index> child_begin;  ///< #N + 1: offsets into child

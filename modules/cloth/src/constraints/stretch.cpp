@@ -44,12 +44,13 @@ Strain add(const Strain& l, const Strain& r) {
   return {l.energy_j + r.energy_j, std::max(l.longest, r.longest)};
 }
 
-/// Does it for packs with these strains; `most` begins with the particle that their indices count from.
+/// Raises the largest strains of the particles of these packs. `most[0]` belongs to the particle from which
+/// the packs' indices count.
 template <class Id>
-void raise_in(std::span<const EdgePack<Id>> packs, std::span<const float> strain, float above,
-              std::span<float> most) {
+void raise_in_packs(std::span<const EdgePack<Id>> packs, std::span<const float> strain, float above,
+                    std::span<float> most) {
   for (std::size_t slot = 0; slot < strain.size(); ++slot) {
-    if (!(strain[slot] > above)) continue;  // so are idle slots
+    if (!(strain[slot] > above)) continue;  // idle slots have a strain of 0
     const EdgePack<Id>& pack = packs[slot / kPack];
     for (const Id end : {pack.a[slot % kPack], pack.b[slot % kPack]})
       most[end] = std::max(most[end], strain[slot]);
@@ -127,10 +128,10 @@ void raise_to_strain(const StretchConstraints& c, std::span<const float> strain,
   const std::size_t size = block_size(most.size()), first = kPack * schedule.packs_inside();
   for (std::size_t b = 0; b < schedule.blocks(); ++b) {
     const auto packs = schedule.inside(std::span(c.inside), b);
-    raise_in(packs, strain.subspan(kPack * schedule.block_begin[b], kPack * packs.size()), above,
-             most.subspan(b * size));
+    raise_in_packs(packs, strain.subspan(kPack * schedule.block_begin[b], kPack * packs.size()), above,
+                   most.subspan(b * size));
   }
-  raise_in(std::span(c.across), strain.subspan(first), above, most);
+  raise_in_packs(std::span(c.across), strain.subspan(first), above, most);
 }
 
 }  // namespace bodice::cloth

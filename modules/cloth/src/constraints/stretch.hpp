@@ -56,8 +56,8 @@ struct Strain {
 Strain measure_stretch(const engine::Context& context, const StretchConstraints& constraints,
                        const Particles& particles, std::span<float> strain);
 
-/// Raises `most` (#P) to the strain of each particle's edges, where that is above `above`. `strain` has one
-/// value a slot.
+/// Raises `most` (#P) to the largest strain of each particle's edges, among strains that exceed `above`.
+/// `strain` has one value for each slot.
 void raise_to_strain(const StretchConstraints& constraints, std::span<const float> strain, float above,
                      std::span<float> most);
 

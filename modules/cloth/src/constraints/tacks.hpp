@@ -1,4 +1,5 @@
-// Tacks: threads between particles of different pieces of a garment, which are no longer than at the start.
+// Tacks: threads between particles of different pieces of a garment. A thread limits the distance of its ends
+// to that at the start.
 #pragma once
 
 #include <span>
@@ -16,8 +17,8 @@ struct Thread {
   float longest_m = 0.0f;
 };
 
-/// The threads of all tacks that join two particles. Those that name a vertex without a particle, or one
-/// particle twice, are left out.
+/// The threads of all tacks that join two different particles. A tack of a vertex without a particle, or of
+/// one particle with itself, is left out.
 std::vector<Thread> make_threads(std::span<const Tack> tacks, std::span<const Index> particle_of_vertex,
                                  std::span<const Vec3> particles);
 

@@ -1,8 +1,9 @@
 // Friction acts on positions: the tangential displacement of a touching particle in a substep is reduced as
-// far as the friction cone allows, so that a garment at rest does not creep by g h a substep. Based on:
-// Matthias Mueller, Miles Macklin, Nuttapong Chentanez, Stefan Jeschke, Tae-Yong Kim. Detailed Rigid Body
-// Simulation with Extended Position Based Dynamics. 2020. - section 3.5 (static friction on positions, zero
-// restitution)
+// far as the friction cone allows. A garment at rest would otherwise creep by gravity's velocity in each
+// substep.
+// Based on: Matthias Mueller, Miles Macklin, Nuttapong Chentanez, Stefan Jeschke, Tae-Yong Kim. Detailed
+// Rigid Body Simulation with Extended Position Based Dynamics. 2020. - section 3.5 (static friction on
+// positions, zero restitution)
 #include "contact/body_contact.hpp"
 
 #include <algorithm>
@@ -31,17 +32,19 @@ void velocities_from_positions(Particles& p, std::size_t begin, std::size_t end,
   for (std::size_t i = begin; i < end; ++i) p.vz[i] = (p.z[i] - p.old_z[i]) * inverse_h;
 }
 
-// The body's motion in a substep at a pushed particle.
+// How the body's material moves in a substep at a particle that it pushes.
 struct MaterialMotion {
-  Float4 by;      // the displacement of its material
-  float pushed;   // the sum over all its pushes of their lengths times the displacement along them
-  Float4 normal;  // the surface's normal when the substep ends; zero at rest
+  Float4 by;      // the displacement of that material, meters
+  float pushed;   // the sum over the particle's pushes of length times the material's displacement along it,
+                  // square meters
+  Float4 normal;  // the normal of the surface when the substep ends; zero if the body stands still
 };
 
 // Applies friction to a pushed particle and sets its velocity. The push has the length `depth` along n.
-// Friction removes up to mu times that of the displacement along the surface, relative to the body's
-// material, and moves nothing into the surface: a face need not push its corners along the normals there. The
-// velocity along n becomes that of what pushed, which may be other material than that at the particle.
+// Friction undoes up to mu * depth of the particle's displacement along the surface, relative to the body's
+// material. It moves no particle into the surface, although a face may push its corners along other normals
+// than theirs. Along n the velocity becomes that of the material that pushed, which may differ from the
+// material at the particle.
 void friction_and_velocity(Particles& p, std::size_t i, const MaterialMotion& body, float mu,
                            float inverse_h) {
   const Point& before = p.point[i];
@@ -49,7 +52,8 @@ void friction_and_velocity(Particles& p, std::size_t i, const MaterialMotion& bo
   const float depth = std::sqrt(dot(push, push));
   const Float4 n = push / depth;
   const Float4 path = {p.x[i] - p.old_x[i], p.y[i] - p.old_y[i], p.z[i] - p.old_z[i], 0.0f};
-  // Pushes that nearly cancel each other say little of how fast their sum goes.
+  // Where pushes nearly cancel, this quotient is arbitrary. It is therefore bounded by the displacement of
+  // the material.
   const float most = std::sqrt(dot(body.by, body.by));
   const float along_n = dot(path, n) - std::clamp(body.pushed / depth, -most, most);
   const Float4 slip = path - body.by - along_n * n;
@@ -76,6 +80,8 @@ void restore_pin(Particles& p, std::size_t i, float inverse_h) {
   p.vz[i] = (p.z[i] - p.old_z[i]) * inverse_h;
 }
 
+// Completes the contact of a particle after its push: a pin returns, another particle gets friction and a
+// velocity.
 void respond(Particles& p, ContactState& s, std::size_t i, const BodyContact& contact) {
   const Point& before = p.point[i];
   if (p.inverse_mass[i] == 0.0f) restore_pin(p, i, contact.substep.inverse_per_s());
@@ -87,11 +93,12 @@ void respond(Particles& p, ContactState& s, std::size_t i, const BodyContact& co
   const float share = end - begin;
   const Float4 normal = turned(load(m.normal[i]), (end - 1.0f) * load(m.turn[i]));
   friction_and_velocity(p, i, {share * load(m.by[i]), share * m.along[i], normal},
-                        m.moving ? s.friction * s.grip[i] : s.friction, contact.substep.inverse_per_s());
+                        m.moving ? s.friction * s.friction_share[i] : s.friction,
+                        contact.substep.inverse_per_s());
 }
 
-// Resolves the contacts of the particles of a patch. Only clusters that may touch the body go to the
-// collider, in runs of consecutive ones.
+// Resolves the contacts of the particles of a patch. Runs of consecutive clusters that may touch the body go
+// to the collider together; all others are skipped.
 void resolve_patch(const engine::Context& alone, const BodyContact& contact, std::size_t begin,
                    std::size_t end, ContactState& s, Particles& p) {
   ContactPatch& patch = s.patch[begin / kPatch];
@@ -114,8 +121,8 @@ void resolve_patch(const engine::Context& alone, const BodyContact& contact, std
   resolve_run(end);
 }
 
-// Copies four points to the positions; false if they are not finite.
-bool take_four(Particles& p, std::size_t i) {
+// Copies four points to the positions; returns false and copies none if one is not finite.
+bool copy_four_points(Particles& p, std::size_t i) {
   const Point* const point = &p.point[i];
   Float4 x = load(point[0]), y = load(point[1]), z = load(point[2]), weight = load(point[3]);
   transpose(x, y, z, weight);
@@ -127,10 +134,10 @@ bool take_four(Particles& p, std::size_t i) {
 
 // Copies points to the positions. A particle that is not finite returns to its position at the start of the
 // substep.
-std::uint32_t take_from_points(Particles& p, std::size_t begin, std::size_t end) {
+std::uint32_t copy_from_points(Particles& p, std::size_t begin, std::size_t end) {
   std::uint32_t limits = 0;
   for (std::size_t i = begin; i < end; ++i) {
-    while (i + 4 <= end && take_four(p, i)) i += 4;
+    while (i + 4 <= end && copy_four_points(p, i)) i += 4;
     if (i == end) break;
     Point& at = p.point[i];
     if (!std::isfinite(at.x + at.y + at.z)) {
@@ -147,7 +154,7 @@ std::uint32_t take_from_points(Particles& p, std::size_t begin, std::size_t end)
 ContactState make_contacts(std::size_t particles, double friction, FaceContact faces) {
   ContactState s;
   s.friction = static_cast<float>(friction);
-  s.grip.assign(particles, 1.0f);
+  s.friction_share.assign(particles, 1.0f);
   s.touching.assign(particles, 0);
   s.clearance = make_clearance_cache(particles);
   s.motion = make_motion(particles, friction);
@@ -195,7 +202,7 @@ std::uint32_t resolve_body_contacts(const engine::Context& context, const collis
                              1.0f - substep.share.end};
   std::atomic<std::uint32_t> limits{0};
   engine::parallel_for(context, p.count(), kPatch, [&](std::size_t begin, std::size_t end) {
-    if (const std::uint32_t reset = take_from_points(p, begin, end))
+    if (const std::uint32_t reset = copy_from_points(p, begin, end))
       limits.fetch_or(reset, std::memory_order_relaxed);
     if (paper || collider == nullptr) velocities_from_positions(p, begin, end, inverse_h);
     if (s.motion.moving) std::fill(&s.motion.along[begin], &s.motion.along[begin] + (end - begin), 0.0f);

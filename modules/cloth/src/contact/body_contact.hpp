@@ -1,5 +1,6 @@
-// The body contact pass at the end of a substep. The collider moves particles out; this adds Coulomb friction
-// on positions, relative to the body's material, and removes the velocity that the push would give.
+// The contact of a substep with the body, which comes after the constraints. The collider moves particles
+// out. This file adds Coulomb friction on positions, relative to the body's material, and removes the
+// velocity that the push would give.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +25,8 @@ struct ContactPatch {
 
 /// The state of body contact.
 struct ContactState {
-  float friction = 0.0f;    ///< coefficient of friction of the cloth
-  std::vector<float> grip;  ///< #P: the share of that friction which acts on a body that moves, from 0 to 1
+  float friction = 0.0f;               ///< coefficient of friction of the cloth
+  std::vector<float> friction_share;   ///< #P: the share of `friction` that acts while the body moves, 0 to 1
   std::vector<std::uint8_t> touching;  ///< #P: whether the collider moved the particle in the last substep
   std::vector<ContactPatch> patch;     ///< #P / kPatch
   ClearanceCache clearance;
@@ -39,19 +40,19 @@ struct ContactState {
 /// make_face_contact().
 ContactState make_contacts(std::size_t particles, double friction, FaceContact faces);
 
-/// Begins a frame.
+/// Begins a frame: finds the body's motion near the particles, their clearances and the samples of faces.
 void begin_contact_frame(const engine::Context& context, const ContactFrame& frame,
                          const SolverOptions& options, Particles& particles, ContactState& state);
 
-/// Copies the points, which constraints moved, to the positions, moves these and the faces between them out
-/// of the body, and sets the velocities of all particles; old_* are the positions at the start of the
-/// substep. `collider` may be null: there is no body. A particle that is not finite returns to its old
-/// position. Returns FrameLimit bits.
+/// Resolves the contacts of a substep. Copies the points, which constraints moved, to the positions. Moves
+/// these, and the faces between them, out of the body. Sets the velocities of all particles; old_* are the
+/// positions at the start of the substep. A null `collider` means that there is no body. A particle that is
+/// not finite returns to its old position. Returns FrameLimit bits.
 std::uint32_t resolve_body_contacts(const engine::Context& context, const collision::Collider* collider,
                                     const SolverOptions& options, const Substep& substep, ContactState& state,
                                     Particles& particles);
 
-/// Ends a frame with a body: proves that faces are out of it, if the options ask for that.
+/// Ends a frame with a body: proves that triangles are out of it, if SolverOptions::certify_m is set.
 void end_contact_frame(const engine::Context& context, const collision::Collider& collider,
                        const SolverOptions& options, ContactState& state, Particles& particles);
 

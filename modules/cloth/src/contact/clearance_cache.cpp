@@ -9,8 +9,8 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-constexpr float kTravelSpare =
-    2.0f;  // the query band covers this times the expected travel: constraints pull some faster
+constexpr float kTravelSpare = 2.0f;   // the query band is this multiple of the expected travel, because
+                                       // constraints pull some particles faster
 constexpr double kMostTravel_m = 1e6;  // bounds the query band
 // If fewer than one cluster in kWorthQueries is clear, the queries of clusters cost more than they save, and
 // are left out for kWait frames.
@@ -37,7 +37,7 @@ void query_run(const collision::Collider& body, const QueryBand& band, std::size
   }
 }
 
-// Queries all clusters without a touching particle; the others may touch anyway.
+// Queries all clusters without a touching particle. The others may touch, whatever a query gives.
 void query_clusters(const engine::Context& context, const collision::Collider& body, const QueryBand& band,
                     std::span<const std::uint8_t> touching, Particles& p, ClearanceCache& c) {
   engine::parallel_for(context, p.count(), kCluster * 16, [&](std::size_t begin, std::size_t end) {

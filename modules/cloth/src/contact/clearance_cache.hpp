@@ -19,19 +19,21 @@ inline constexpr std::size_t kCluster = 64;
 
 /// How far each cluster may travel before one of its particles can touch the body.
 struct ClearanceCache {
-  std::vector<float> free_m;                ///< #clusters: the remaining travel; not above zero: it may touch
+  /// #clusters: the travel that is left; where it is not above zero, the cluster may touch.
+  std::vector<float> free_m;
   std::vector<collision::Contact> nearest;  ///< #P: scratch of the queries
   float slope = 1.0f;                       ///< bound on how much a meter of travel lowers a distance
-  int frames_without = 0;                   ///< frames left without queries
+  int frames_without = 0;                   ///< frames for which queries are still left out
 };
 
 /// The cache for so many particles.
 ClearanceCache make_clearance_cache(std::size_t particles);
 
-/// Begins a frame. Without a body, or if it moves, every cluster may touch: beside a body that moves,
-/// resolve_moving() leaves out single particles. So it is for some frames after most clusters were found
-/// near. The cluster of a particle that travels farther than expected may touch as well. `touching` is #P:
-/// whether the body moved the particle in the substep before.
+/// Begins a frame: queries how far each cluster is from a body that stands still. In three cases no cluster
+/// is queried, and each may touch: without a body, beside a moving body, and for some frames after most
+/// clusters were near. Beside a moving body, resolve_moving() skips single particles instead. `touching` (#P)
+/// states whether the body moved the particle in the substep before; clusters of such particles are not
+/// queried.
 void begin_clearance_frame(const engine::Context& context, const ContactFrame& frame,
                            std::span<const std::uint8_t> touching, Particles& particles,
                            ClearanceCache& clearance);

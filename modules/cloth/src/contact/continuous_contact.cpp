@@ -10,7 +10,8 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-// Cloth with at least this coefficient of friction counts as following the surface; with less, a share does.
+// With at least this coefficient of friction cloth follows the surface wholly, with less by a proportional
+// share.
 constexpr double kFollowingFriction = 0.2;
 
 Point point(const Vec3& v) {
@@ -38,7 +39,8 @@ struct Moved {
 // radians.
 constexpr int kDisplacementSteps = 4;
 
-// How far the material that moves with an ellipsoid goes in a frame, from a point at its start.
+// The displacement in a frame of the material that moves with an ellipsoid and is at `start` when the frame
+// begins.
 Vec3 displacement(const collision::Collider& body, std::uint32_t ellipsoid, double frame_s,
                   const Vec3& start) {
   Vec3 by = Vec3::Zero();
@@ -47,8 +49,9 @@ Vec3 displacement(const collision::Collider& body, std::uint32_t ellipsoid, doub
   return by;
 }
 
-// How each ellipsoid turns in the frame: half the curl of its velocity, an affine function, by the frame.
-void find_turns(const collision::Collider& body, double frame_s, std::span<Vec3> turns) {
+// The rotation of each ellipsoid in the frame: half the curl of its velocity, which is an affine function,
+// times the length of the frame.
+void find_rotations(const collision::Collider& body, double frame_s, std::span<Vec3> turns) {
   for (std::uint32_t k = 0; k < turns.size(); ++k) {
     const Vec3 still = body.surface_velocity(k, Vec3::Zero());
     const Vec3 x = body.surface_velocity(k, Vec3::UnitX()) - still,
@@ -58,10 +61,10 @@ void find_turns(const collision::Collider& body, double frame_s, std::span<Vec3>
   }
 }
 
-// Finds the motion of the nearest material for each particle. The body as it was when the frame began is no
-// longer known, but the owners of the particles are: their motion takes each particle to where a query finds
-// the same material. Without an owner, that is the ellipsoid nearest to the particle at the end of the frame;
-// where a limb has moved by more than its width, it may be another limb's.
+// Finds the motion of the nearest material for each particle. The pose when the frame began is no longer
+// known, but each particle's owner in it is. The owner's motion takes the particle to where a query in the
+// final pose finds the same material. Without an owner, the ellipsoid nearest in the final pose is used.
+// Where a limb has moved by more than its width, this ellipsoid may belong to another limb.
 void find_motion(const ContactFrame& frame, std::size_t begin, std::size_t end, const Particles& p,
                  BodyMotion& motion, std::span<collision::Contact> kept) {
   const collision::Collider& body = *frame.body;
@@ -97,7 +100,8 @@ void find_motion(const ContactFrame& frame, std::size_t begin, std::size_t end, 
   }
 }
 
-// Whether particle i cannot touch the body on a path that it sees between these points.
+// Whether particle i cannot touch the body on the path between these points, which are shifted to the pose at
+// the end of the frame.
 bool is_clear(const BodyMotion& motion, std::size_t i, Float4 from, Float4 to) {
   const float radius_m = motion.clear[i].weight;
   const Float4 at = load(motion.clear[i]), before = xyz(from - at), now = xyz(to - at);
@@ -117,8 +121,8 @@ struct Group {
   }
 };
 
-// The particles of a patch that may touch the body, by the lengths of their paths in a substep, relative to
-// it.
+// The particles of a patch that may touch the body, divided into short and long paths in a substep, relative
+// to it.
 struct ByPath {
   Group short_paths, long_paths;
 
@@ -199,7 +203,7 @@ void begin_motion_frame(const engine::Context& context, const ContactFrame& fram
     std::ranges::fill(motion.along, 0.0f);
     return;
   }
-  find_turns(*frame.body, frame.length_s, motion.turns);
+  find_rotations(*frame.body, frame.length_s, motion.turns);
   engine::parallel_for(context, p.count(), kPatch, [&](std::size_t begin, std::size_t end) {
     find_motion(frame, begin, end, p, motion, nearest);
   });

@@ -1,11 +1,11 @@
-// Contact with a moving body. The collider has the pose at the end of the frame, but substeps end before. So
-// each particle is shifted by the remaining motion of the material near it before it is resolved, and
-// friction acts relative to that material.
+// Contact with a moving body. The collider has the pose at the end of the frame, but substeps end before it.
+// So each particle is resolved at a shifted position, ahead by the motion that the material near it still has
+// to make. The push is then applied to the particle itself, with friction relative to that material.
 //
-// The shift has a share of the motion along the surface, that which friction makes cloth follow. Cloth that
-// is carried stays over the same material: a sock on a leg that swings would otherwise meet another part of
-// it. Cloth without friction stays where it is, and the surface passes below it. What is found there is
-// turned back to the body as it is when the substep ends, by the same share.
+// Along the normal the shift is the whole remaining motion. Along the surface it is the share that friction
+// makes cloth follow. Cloth that follows stays over the same material: a sock on a leg that swings would
+// otherwise meet another part of the leg. Cloth without friction stays, and the surface passes below it.
+// Each push is turned back from the pose at the end of the frame to that at the end of the substep.
 #pragma once
 
 #include <cstdint>
@@ -20,28 +20,31 @@
 
 namespace bodice::inline v0_1::cloth {
 
-/// Particles a task of contact, and the most that resolve_moving() takes.
+/// The number of particles in a task of contact, and the most that resolve_moving() takes.
 inline constexpr std::size_t kPatch = 512;
 
 /// The motion of the body in a frame, near each particle.
 struct BodyMotion {
-  float ccd_threshold_m =
-      0.0f;               ///< a longer path relative to the body in a substep takes continuous collision
-  bool moving = false;    ///< whether the body moves in this frame
-  float follow = 0.0f;    ///< the share of motion along the surface that the cloth follows, from 0 to 1
-  std::vector<Point> by;  ///< #P: displacement in the frame of the nearest material, meters; zero at rest
-  std::vector<Point>
-      shift;  ///< #P: what the body sees of `by`: all along the normal, `follow` along the surface
-  std::vector<Point> normal;  ///< #P: of the surface there when the frame ends; zero at rest
-  std::vector<Point> turn;    ///< #P: rotation vector of the material in the frame, times `follow`; radians
-  /// #P: a point near the body as it is when the frame ends, and as its weight a radius, meters: nothing that
-  /// close to the point touches the body. Not above zero: it may.
+  float ccd_threshold_m = 0.0f;  ///< paths in a substep that are longer than this, relative to the body, take
+                                 ///< continuous collision
+  bool moving = false;           ///< whether the body moves in this frame
+  float follow = 0.0f;  ///< the share of the body's motion along the surface that cloth follows, 0 to 1
+  /// #P: displacement of the nearest material in the frame, meters; zero if the body stands still.
+  std::vector<Point> by;
+  std::vector<Point> shift;  ///< #P: the shift for a whole frame, meters: `by` along the normal, `follow`
+                             ///< times `by` along the surface
+  /// #P: normal of the surface there when the frame ends; zero if the body stands still.
+  std::vector<Point> normal;
+  std::vector<Point> turn;  ///< #P: rotation vector of the material in the frame, times `follow`; radians
+  /// #P: a ball in the body's pose at the end of the frame, with its radius as weight, meters. A particle
+  /// inside it touches nothing. Where the radius is not above zero, no such ball is known.
   std::vector<Point> clear;
-  /// #P: over the pushes of a substep, the sum of their lengths times the displacement in the frame of what
-  /// pushed along them, square meters. Over the length of their sum it is the displacement along that.
+  /// #P: the sum over a substep's pushes of length times the material's displacement in the frame along it,
+  /// square meters. Divided by the length of the whole push, it is the displacement along the whole push.
   std::vector<float> along;
-  std::vector<std::uint32_t> owner;  ///< #P: nearest ellipsoid when the frame before ended, or kNoEllipsoid
-  std::vector<Vec3> turns;           ///< #ellipsoids of the body: how each turns in the frame, radians
+  /// #P: the ellipsoid nearest to the particle when the last frame ended, or kNoEllipsoid.
+  std::vector<std::uint32_t> owner;
+  std::vector<Vec3> turns;  ///< #ellipsoids of the body: how each turns in the frame, radians
 };
 
 /// Motion for so many particles of cloth with this coefficient of friction, near a body at rest.
@@ -55,19 +58,20 @@ struct FrameShare {
 /// Whether any ellipsoid of the body has a velocity.
 bool is_moving(const collision::Collider& body);
 
-/// Begins a frame. `nearest` takes the contacts of the particles (#P, or empty), displaced by `by`. Costs a
-/// query a particle if the body moves, two where owners are not known, and nothing otherwise. Precondition:
-/// `turns` has the size of the body.
+/// Begins a frame: finds the motion of the body near each particle. `nearest` (#P, or empty) receives the
+/// contacts of the particles at positions displaced by `by`. Cost: a query a particle if the body moves, two
+/// where owners are not known, and nothing otherwise. Precondition: `turns` has one element for each
+/// ellipsoid.
 void begin_motion_frame(const engine::Context& context, const ContactFrame& frame, const Particles& particles,
                         BodyMotion& motion, std::span<collision::Contact> nearest);
 
-/// Ends a frame with a body: notes the owners of all particles. That costs a query a particle where the body
-/// moved; where it did not, they are those of `nearest` (#P, or empty), the contacts when the frame began.
+/// Ends a frame with a body: stores the owners of all particles. They cost a query a particle if the body
+/// moved. Otherwise they are those of `nearest` (#P, or empty), the contacts when the frame began.
 void end_motion_frame(const engine::Context& context, const collision::Collider& body,
                       const Particles& particles, std::span<const collision::Contact> nearest,
                       BodyMotion& motion);
 
-/// Forgets the owners of all particles: these, or the body, are no longer where they were.
+/// Forgets the owners of all particles, because the particles or the body have been moved elsewhere.
 void forget_owners(BodyMotion& motion);
 
 /// One of a frame's substeps.

@@ -10,28 +10,30 @@
 
 namespace bodice::inline v0_1::cloth {
 
-/// The body as contact with it was resolved in a substep; without one, nothing sinks.
+/// The body in the state in which a substep resolved contact with it. Without a body, nothing sinks.
 struct ResolvedBody {
   const collision::Collider* collider = nullptr;
   const BodyMotion* motion = nullptr;
   float thickness_m = 0.0f;  ///< distance that particles keep
-  float least_m = 0.0f;      ///< distance up to which self-contact may move them; negative: into it
-  float remaining = 0.0f;    ///< share of the frame that is left after the substep
+  /// The least distance to which self-contact may move them; negative: inside the body.
+  float least_m = 0.0f;
+  float remaining = 0.0f;  ///< share of the frame that is left after the substep
 };
 
-/// What keeps a particle out of the body: it stays in front of a plane. `weight` is the plane's distance from
-/// where contact with the body was resolved, along the normal x, y, z. Without a normal nothing keeps it.
+/// A plane that keeps a particle out of the body, because the particle must stay in front of it. x, y, z are
+/// the plane's unit normal. `weight` is its distance along the normal from where contact with the body left
+/// the particle. A zero normal means that there is no guard.
 using Guard = Point;
 
 inline bool is_guarded(const Guard& guard) {
   return guard.x != 0.0f || guard.y != 0.0f || guard.z != 0.0f;
 }
 
-/// Sets the guard of each particle of `moved` that sank: at `now` it is nearer to the body than `least_m`,
-/// and nearer than at `resolved`. The first guard of a particle is parallel to the surface below `resolved`.
-/// Where a guarded particle sinks, because the surface bends or faces itself there, its next guard is
-/// parallel to the surface below `now`. Returns whether any sank. All lists but `moved` are by particle.
-/// Takes two queries a particle.
+/// Sets the guard of each particle of `moved` that sank, and returns whether any did. A particle sank if it
+/// is nearer to the body at `now` than `least_m`, and nearer than at `resolved`. Its first guard is parallel
+/// to the surface below `resolved`. If a guarded particle sinks again, because the surface bends or faces
+/// itself, its next guard is parallel to the surface below `now`. All lists but `moved` have one element for
+/// each particle (#P). Cost: two queries a particle of `moved`.
 bool guard_sunk(const engine::Context& context, const ResolvedBody& body, std::span<const Index> moved,
                 std::span<const Point> resolved, std::span<const Point> now, std::span<Guard> guard);
 

@@ -1,7 +1,8 @@
 // Fabric presets. Each constant lies inside the range published for its class of fabric; the value within the
-// range is an order-of-magnitude choice. Based on: Sueo Kawabata. The Standardization and Analysis of Hand
-// Evaluation. 1980. (KES-F measurements: tensile, shear G, bending B, and its hysteresis 2HB, which is twice
-// the friction. 1 gf/(cm deg) = 56 N/m a radian, 1 gf cm^2/cm = 9.8e-5 N m, 1 gf cm/cm = 9.8e-3 N)
+// range is an order-of-magnitude choice.
+// Based on: Sueo Kawabata. The Standardization and Analysis of Hand Evaluation. 1980. (KES-F measurements:
+// tensile, shear G, bending B, and its hysteresis 2HB, which is twice the friction. 1 gf/(cm deg) = 56 N/m a
+// radian, 1 gf cm^2/cm = 9.8e-5 N m, 1 gf cm/cm = 9.8e-3 N)
 #include <array>
 #include <cmath>
 

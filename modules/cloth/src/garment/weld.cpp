@@ -58,8 +58,8 @@ std::vector<Cell> sorted_cells(const TriMesh& mesh, double tolerance, const std:
   for (const Vec3& p : mesh.positions) {
     if (p.allFinite()) box.extend(p);
   }
-  // 2^40 cells a side keep integers exact; a garment that is so large in comparison with its edges has no
-  // seams.
+  // At most 2^40 cells a side keep integers exact. A garment so large in comparison with its edges has no
+  // seams to weld.
   const double cell = std::max(tolerance, box.empty() ? 0.0 : box.size().maxCoeff() * 0x1.0p-40);
   std::vector<Cell> cells;
   for (Index v = 0; v < mesh.positions.size(); ++v) {
@@ -71,9 +71,9 @@ std::vector<Cell> sorted_cells(const TriMesh& mesh, double tolerance, const std:
   return cells;
 }
 
-// Links vertices at one point, and returns which are not the first of theirs. Without them a cell has few
-// vertices, although files hide parts by collapsing them into a point.
-std::vector<bool> link_equal(const TriMesh& mesh, geometry::DisjointSets& linked) {
+// Unites vertices at the same position, and returns which of them repeat an earlier vertex. Repeats stay out
+// of the grid: some files hide parts by collapsing them into one point, which would fill one cell.
+std::vector<bool> unite_repeats(const TriMesh& mesh, geometry::DisjointSets& linked) {
   std::vector<Index> order(mesh.positions.size());
   std::iota(order.begin(), order.end(), Index{0});
   std::erase_if(order, [&](Index v) { return !mesh.positions[v].allFinite(); });
@@ -95,7 +95,7 @@ std::vector<bool> link_equal(const TriMesh& mesh, geometry::DisjointSets& linked
 // `tolerance`.
 std::vector<Index> representatives(const TriMesh& mesh, double tolerance) {
   geometry::DisjointSets linked(mesh.positions.size());
-  const std::vector<Cell> cells = sorted_cells(mesh, tolerance, link_equal(mesh, linked));
+  const std::vector<Cell> cells = sorted_cells(mesh, tolerance, unite_repeats(mesh, linked));
   for (const Cell& c : cells) {
     for (int n = 0; n < 9; ++n) {  // three cells along z are one run of the sorted list
       const std::array<std::int64_t, 3> low = {c.key[0] + n / 3 - 1, c.key[1] + n % 3 - 1, c.key[2] - 1};

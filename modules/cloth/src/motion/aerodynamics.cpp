@@ -1,7 +1,8 @@
 // A particle's share of the surface counts as a flat plate. The relative velocity along the normal meets the
 // plate's drag, and the velocity along the surface meets skin friction. The component of the normal force
-// across the wind is the lift. Based on: Sighard Hoerner. Fluid-Dynamic Drag. 1965. (plates: 1.17 if square,
-// 2 if long; skin friction 0.005 to 0.05)
+// across the wind is the lift.
+// Based on: Sighard Hoerner. Fluid-Dynamic Drag. 1965. (plates: 1.17 if square, 2 if long; skin friction
+// 0.005 to 0.05)
 #include "motion/aerodynamics.hpp"
 
 #include <algorithm>
@@ -104,8 +105,8 @@ void accelerate(const Environment& environment, const Air& air, float substep_s,
     const Float4 rx = load(&air.wind_x[i]) - vx, ry = load(&air.wind_y[i]) - vy,
                  rz = load(&air.wind_z[i]) - vz;
     const Float4 speed = square_root(rx * rx + ry * ry + rz * rz);
-    // dv/dt = k |r| r is implicit in r: the particle takes over the share k / (1 + k) of the relative
-    // velocity.
+    // An implicit step of dv/dt = k |r| r gives the particle the share k / (1 + k) of the relative velocity
+    // r.
     const Float4 rate = pressure * load(&air.area_m2[i]) * speed * load(&p.inverse_mass[i]);
     const Float4 along = rate * kTangentCoefficient / (1.0f + rate * kTangentCoefficient);
     const Float4 across = rate * kNormalCoefficient / (1.0f + rate * kNormalCoefficient) - along;

@@ -22,7 +22,7 @@ struct Velocity {
 };
 
 // Damps the velocities of free particles, and restores those of pinned and sleeping ones.
-void keep_held(const Velocity& before, std::size_t i, Float4 weight, Float4 damping, Particles& p) {
+void damp_free_particles(const Velocity& before, std::size_t i, Float4 weight, Float4 damping, Particles& p) {
   const auto free = weight > splat(0.0f);
   store(&p.vx[i], free ? damping * load(&p.vx[i]) : before.x);
   store(&p.vy[i], free ? damping * load(&p.vy[i]) : before.y);
@@ -56,7 +56,7 @@ std::uint32_t predict(const Environment& environment, const Air& air, const Pred
     const std::size_t last = std::min(i + 4, end);
     const Point* const point = &p.point[i];
     const Float4 weight = weights(load(point[0]), load(point[1]), load(point[2]), load(point[3]));
-    keep_held(before, i, weight, damping, p);
+    damp_free_particles(before, i, weight, damping, p);
     if (any_faster(p, i, how.top_speed_m_s))
       for (std::size_t k = i; k < last; ++k) limits |= bound_velocity(p, k, how.top_speed_m_s);
     write_points(load(&p.old_x[i]) + how.substep_s * load(&p.vx[i]),

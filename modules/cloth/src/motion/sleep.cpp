@@ -14,8 +14,8 @@ constexpr float kSlow_m_s = 0.010f;    // a slower particle rests: a sixth of a 
 constexpr float kWaking_m_s = 0.050f;  // a faster neighbor wakes a particle
 constexpr float kQuiet_s =
     0.5f;  // a particle sleeps after this time, longer than a visible swing takes to turn
-// A particle that stays this close to its anchor only trembles; a drift at kSlow_m_s leaves that in kQuiet_s
-// / 2.
+// A particle that stays this close to its anchor only trembles. A drift at kSlow_m_s leaves this distance
+// after kQuiet_s / 2.
 constexpr float kTremble_m = 0.5f * kSlow_m_s * kQuiet_s;
 
 // A particle that contact puts back by more than this share of the median edge in a substep does not sleep.
@@ -26,8 +26,8 @@ bool stays(const Particles& p, std::size_t i, const Point& anchor) {
   return dx * dx + dy * dy + dz * dz < kTremble_m * kTremble_m;
 }
 
-// Whether contact puts the particle back from afar in each substep. Asleep it would no longer balance the
-// neighbors that pull it, and these would go off.
+// Whether contact puts the particle back by a long distance in each substep. If it slept, it would no longer
+// balance the neighbors that pull it, and they would move off.
 bool is_pulled(const Particles& p, std::size_t i, float most_m) {
   const Point& pulled = p.point[i];
   const float dx = p.x[i] - pulled.x, dy = p.y[i] - pulled.y, dz = p.z[i] - pulled.z;

@@ -1,6 +1,6 @@
-// Sleep: particles that hardly moved for a while hold still, so that a garment at rest does not move at all.
-// So do particles that only tremble: with few substeps, the errors that sweeps leave can swing a fold to and
-// fro forever.
+// Sleep: particles that hardly move for half a second are stopped, so that a garment at rest does not move at
+// all. Particles that only tremble are stopped as well: with few substeps, the errors that sweeps leave can
+// swing a fold forever.
 #pragma once
 
 #include <cstdint>

@@ -17,17 +17,17 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-// One particle of so many may be faster than the substeps of a frame allow.
+// One particle in this many may be faster than the substeps of a frame allow.
 constexpr std::size_t kFewFast = 200;
 
-// A particle has all of its friction up to this strain beyond the limit of the fabric, and none at kGripFades
-// more.
-constexpr float kGripsBeyond = 0.04f, kGripFades = 0.12f;
-// Substeps are doubled where more than one particle of so many slips.
+// Up to this strain beyond the limit of the fabric a particle has all of its friction. At a strain that is
+// larger by kFrictionFade it has none.
+constexpr float kFullFrictionBeyond = 0.04f, kFrictionFade = 0.12f;
+// Substeps are doubled while more than one particle in this many has reduced friction.
 constexpr std::size_t kFewStretched = 1000;
 
-// The speed that all but few particles keep. Those few are slowed where they cross too much cloth in a
-// substep: more substeps for what crushed cloth flings would multiply the time of the frame.
+// The speed that all but a few particles keep. The few that crushed cloth flings are slowed instead, because
+// enough substeps for them would multiply the time of the frame.
 double usual_speed(const engine::Context& context, State& s) {
   const Particles& p = s.particles;
   engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
@@ -37,8 +37,8 @@ double usual_speed(const engine::Context& context, State& s) {
   return static_cast<double>(nth_largest(context, s.scratch, p.count() / kFewFast, s.selection));
 }
 
-// Copies the particles [begin, end) to the points, with weights for this frame: pinned and sleeping particles
-// have none. True if a weight changed.
+// Copies the particles [begin, end) to the points, with their weights for this frame; pinned and sleeping
+// particles have a weight of 0. Returns whether a weight changed.
 bool load_points(const Sleep& sleep, std::size_t begin, std::size_t end, Particles& p) {
   bool changed = false;
   for (std::size_t i = begin; i < end; ++i) {
@@ -53,22 +53,22 @@ bool touches_itself(const Plan& plan, const State& s) {
   return s.options.self_collision && !(plan.limits & kNoSelfContact);
 }
 
-// The share of friction of a particle on a body that moves, by the largest strain of its edges.
-float grip_at(float strain, float full) {
-  return strain > full ? std::max(0.0f, 1.0f - (strain - full) / kGripFades) : 1.0f;
+// The share of its friction that a particle has on a moving body, by the largest strain of its edges.
+float friction_share_at(float strain, float full) {
+  return strain > full ? std::max(0.0f, 1.0f - (strain - full) / kFrictionFade) : 1.0f;
 }
 
-// Lets cloth slip that was stretched far beyond the limit of its fabric when the last frame ended. A person
-// would yield or let it slide; a clip does not, and friction would hold what the constraints cannot.
-void find_grip(State& s) {
-  std::vector<float>& grip = s.contacts.grip;
-  const float full = static_cast<float>(s.fabric.max_stretch) + kGripsBeyond;
+// Reduces the friction of particles whose edges exceeded the limit of the fabric by far when the last frame
+// ended. A body in a clip does not yield to tight cloth, and full friction would keep that cloth stretched.
+void reduce_friction_where_stretched(State& s) {
+  std::vector<float>& share = s.contacts.friction_share;
+  const float full = static_cast<float>(s.fabric.max_stretch) + kFullFrictionBeyond;
   const bool stretched = s.longest_strain > full;
   if (!stretched && s.slipping == 0) return;
   std::ranges::fill(s.scratch, 0.0f);
   if (stretched) raise_to_strain(s.stretch, s.strain, full, s.scratch);
-  for (std::size_t i = 0; i < grip.size(); ++i) grip[i] = grip_at(s.scratch[i], full);
-  s.slipping = static_cast<std::size_t>(std::ranges::count_if(grip, [](float g) { return g < 1.0f; }));
+  for (std::size_t i = 0; i < share.size(); ++i) share[i] = friction_share_at(s.scratch[i], full);
+  s.slipping = static_cast<std::size_t>(std::ranges::count_if(share, [](float one) { return one < 1.0f; }));
 }
 
 void begin_frame(const engine::Context& context, const Plan& plan, State& s) {
@@ -92,8 +92,8 @@ void solve_block(std::size_t block, bool bend, float inverse_h2, Patch& patch, S
   solve_stretch_block(s.stretch, block, inverse_h2, patch);
 }
 
-// Predicts, and makes one sweep over the constraints inside blocks. One worker does both for a block, while
-// its patch of cloth is in the cache.
+// Predicts the particles, and makes one sweep over the constraints inside blocks. One worker does both for a
+// block, while its patch of cloth is in the cache.
 std::uint32_t predict_and_sweep(const engine::Context& context, const Plan& plan, bool bend, float inverse_h2,
                                 State& s) {
   const Prediction how = {plan.substep_s, static_cast<float>(s.fabric.damping_per_s),
@@ -161,7 +161,8 @@ std::uint32_t run_substep(const engine::Context& context, const collision::Colli
   return limits;
 }
 
-// Proves faces to be out of the body, which moves some of them once more.
+// Proves that triangles are out of the body, which may move particles once more, and stores the owners of all
+// particles.
 void end_contact(const engine::Context& context, const collision::Collider& collider, const Plan& plan,
                  State& s) {
   end_contact_frame(context, collider, s.options, s.contacts, s.particles);
@@ -188,9 +189,9 @@ bool begin_collider(const collision::Collider* collider, State& s) {
   const Vec3 before = s.particles.origin;
   if (collider != nullptr) rebase(s.particles, collider->origin());
   const bool moved = collider != nullptr && is_moving(*collider);
-  // The address does not suffice: another proxy may have been assigned to the same object.
+  // The address does not identify the body: another proxy may have been assigned to the same object.
   const std::uint64_t proxy_hash = collider != nullptr ? collider->proxy_hash() : 0;
-  // Velocities do not suffice either: a pose that was set in no time has none.
+  // Velocities do not show every change: a pose that was set in no time has none.
   const std::uint64_t poses = collider != nullptr ? collider->poses() : 0;
   const bool same_body = collider == s.last_collider && proxy_hash == s.last_proxy_hash;
   if (moved || !same_body || poses != s.last_poses || before != s.particles.origin) wake_all(s.sleep);
@@ -208,7 +209,7 @@ FrameReport advance(const engine::Context& context, const collision::Collider* c
                     State& s) {
   const std::int64_t start_ns = context.clock->now_ns();
   const bool moved = begin_collider(collider, s);
-  if (moved) find_grip(s);
+  if (moved) reduce_friction_where_stretched(s);
   const Pace pace{usual_speed(context, s), static_cast<double>(s.max_travel_m),
                   moved && s.slipping > s.particles.count() / kFewStretched};
   const Plan plan = plan_frame(s.options, dt_s, pace, s.budget.level);

@@ -8,8 +8,8 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-// Limits of ties exceed distances along the cloth by this fraction of the strain limit; distances along edges
-// are 2 % too long anyway.
+// The limit of a tie exceeds its distance along the cloth by this fraction of the strain limit. More is not
+// needed, because distances along edges are 2 % too long.
 constexpr double kCoarseSlack = 0.25;
 
 // The threshold of continuous collision, a fraction of the longest travel in a substep: 5 mm for a garment a
@@ -66,7 +66,7 @@ std::vector<Vec3> reported_positions(const geometry::TriMesh& garment, const geo
   return out;
 }
 
-// The garment's edges and its threads: along both, cloth holds together.
+// The garment's edges with its threads, because both hold the cloth together.
 Topology with_threads(Topology topology, std::span<const Thread> threads) {
   for (const Thread& t : threads)
     topology.edges.push_back({std::min(t.a, t.b), std::max(t.a, t.b), 0.0, false});

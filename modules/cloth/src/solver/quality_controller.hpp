@@ -7,7 +7,7 @@
 
 namespace bodice::inline v0_1::cloth {
 
-/// The substeps of a frame.
+/// The number and length of a frame's substeps.
 struct Plan {
   int substeps = 0;
   float substep_s = 0.0f;
@@ -16,9 +16,9 @@ struct Plan {
   std::uint32_t limits = 0;  ///< FrameLimit bits
 };
 
-/// What a frame begins with.
+/// The motion and stretch of the cloth by which the substeps of a frame are planned.
 struct Pace {
-  double speed_m_s = 0.0;     ///< that of the cloth
+  double speed_m_s = 0.0;     ///< the speed that all but a few particles keep
   double max_travel_m = 1.0;  ///< the most that a substep may move a particle
   bool stretched = false;     ///< whether the body stretches cloth far beyond the limit of its fabric
 };

@@ -39,10 +39,10 @@ struct State {
   Budget budget;
   const collision::Collider* last_collider = nullptr;  ///< compared with, never dereferenced
   std::uint64_t last_proxy_hash = 0, last_poses = 0;
-  std::vector<float> strain;    ///< one value a slot of edges, at the end of the frame before
+  std::vector<float> strain;    ///< the strain of each slot of edges at the end of the last frame
   float longest_strain = 0.0f;  ///< the largest of them
-  std::vector<float> scratch;   ///< #P: values that the beginning of a frame needs for a moment
-  std::size_t slipping = 0;     ///< particles that lack a share of their friction on a body that moves
+  std::vector<float> scratch;   ///< #P: room for one value a particle when a frame begins
+  std::size_t slipping = 0;     ///< number of particles with reduced friction on a moving body
   Selection selection;
   float max_travel_m = 0.0f;  ///< the most that a particle may move in a substep
   double time_s = 0.0;        ///< simulated time

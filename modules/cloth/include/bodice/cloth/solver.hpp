@@ -27,33 +27,33 @@ struct Environment {
 struct SolverOptions {
   int substeps = 8;    ///< substeps a frame; more of them make cloth stiffer
   int iterations = 1;  ///< sweeps over the constraints a substep
-  /// Whether frames take twice the substeps while a body that moves stretches cloth far beyond the limit of
-  /// its fabric. A hem that a stride catches is else pulled through the legs.
+  /// Whether frames take twice the substeps while a moving body stretches cloth far beyond the limit of its
+  /// fabric. Without them, a hem that a stride catches is pulled through the legs.
   bool doubled_when_stretched = false;
   double thickness_m = 0.001;  ///< distance that particles, edges and triangles keep from the proxy
   /// Whether edges and triangles keep the thickness between their particles as well. Not with kPaper.
   bool face_contact = true;
-  /// Depth in the proxy that no point of any triangle may exceed at the end of a frame, meters, above zero:
-  /// points that are deeper are pushed out, and the rest is proved (FaceReport::proof); absent: no proof.
-  /// What touches in a frame is then queried about every millimeter. Only with face_contact. The proof is
-  /// strict for proxies without relief. Distances with relief fall faster than it assumes (1.5 times the
-  /// path) on a few short paths of a thousand, at cliffs of up to 5 mm between tables.
+  /// The largest depth in the proxy that a point of a triangle may have at the end of a frame, meters, above
+  /// zero. Deeper points are pushed out, and a proof is made for each triangle (FaceReport::proof). Absent:
+  /// no proof. It needs face_contact, and one query for about every millimeter of cloth that touches. The
+  /// proof is strict for proxies without relief. With relief it assumes that a distance falls by at most 1.5
+  /// times the path. A few short paths of a thousand fall faster, at cliffs of up to 5 mm between tables.
   std::optional<double> certify_m = {};
-  bool self_collision = true;  ///< whether layers of cloth keep apart, and do not pass through each other
-  /// Distance that layers of cloth keep from each other, at most a quarter of the median edge. Where they
-  /// were nearer at rest, they keep as much less.
+  bool self_collision = true;  ///< whether layers of cloth stay apart and do not pass through each other
+  /// Distance that layers of cloth keep from each other; a quarter of the median edge is its upper bound.
+  /// Parts that are nearer at rest keep their distance at rest.
   double layer_gap_m = 0.0015;
   collision::Response response = collision::Response::kClosestPoint;
   Environment environment = {};
   std::uint64_t seed = 0;  ///< of the gusts
-  /// Time that a frame may take, microseconds; 0: no budget. After a frame above it, the next ones leave out,
-  /// in this order: self-contact, bending in every second substep, half of the substeps. The clock then
-  /// affects the result, so that equal bits are promised only without a budget.
+  /// Time that a frame may take, microseconds; 0: no budget. Each frame above it makes the next ones drop one
+  /// thing more: self-contact, then bending in every second substep, then half of the substeps. The clock
+  /// then affects the result, so that equal bits are promised only without a budget.
   double budget_us = 0.0;
 };
 
-/// Two vertices of a garment that stay as near to each other as they are at first: pieces that are sewn
-/// together, or a button on what it lies on.
+/// Two vertices of a garment that a thread joins: they never come farther apart than they are at the start.
+/// Threads sew pieces together, or a button to the cloth below it.
 struct Tack {
   geometry::Index a = 0, b = 0;
 };
@@ -62,8 +62,8 @@ struct Tack {
 enum FrameLimit : std::uint32_t {
   kTimeCut = 1u << 0,  ///< dt_s was longer than kMaxSubsteps substeps may be, and the rest was dropped; or it
                        ///< was under 1e-15 s and was dropped
-  kMoreSubsteps = 1u << 1,  ///< there were more substeps than the option has: dt_s, a speed or the stretch of
-                            ///< cloth on a moving body was large
+  kMoreSubsteps = 1u << 1,  ///< the frame took more substeps than SolverOptions::substeps, because dt_s, a
+                            ///< speed, or the stretch of cloth on a moving body was large
   kSpeedClamped = 1u << 2,  ///< a particle was slowed, because it would have crossed kMaxTravel in a substep
   kParticlesReset = 1u << 3,  ///< a particle became NaN or infinite and was returned to its last position
   kNoSelfContact = 1u << 4,   ///< the budget dropped self-contact
@@ -88,7 +88,7 @@ struct FaceProof {
 /// Contact of edges and triangles with the body in a frame.
 struct FaceReport {
   std::size_t samples = 0;     ///< points between particles that were near the body
-  std::uint64_t contacts = 0;  ///< those that were pushed, summed over the substeps
+  std::uint64_t contacts = 0;  ///< samples that were pushed, summed over the substeps
   float deepest_m = 0.0f;  ///< depth in the proxy of the deepest one at the end of the frame, to first order
   FaceProof proof;         ///< with SolverOptions::certify_m
 };
@@ -96,10 +96,10 @@ struct FaceReport {
 /// Contact of the cloth with itself in a frame.
 struct SelfContactReport {
   std::size_t pairs = 0;     ///< pairs of particle and triangle, or of two edges, that may touch
-  std::size_t searches = 0;  ///< how often they were found anew
+  std::size_t searches = 0;  ///< how often pairs were searched for anew
   std::size_t held = 0;      ///< particles that were held back from a crossing, summed over the substeps
-  /// Pairs of triangles that cross, of those that did at the start or that the body pressed through each
-  /// other.
+  /// Pairs of triangles that cross now. They crossed at the start, or the body has pressed them through each
+  /// other since.
   std::size_t crossing = 0;
 };
 
@@ -126,12 +126,13 @@ struct FrameReport {
 /// time.
 class Solver {
  public:
-  /// garment  #V x 3, world meters. Vertices at the same position become one particle; isolated vertices are
-  /// dropped
-  ///          and reported as warnings.
+  /// Makes the solver of a garment at rest.
+  /// garment  #V x 3, world meters. Vertices at the same position become one particle. Isolated vertices are
+  ///          dropped, and warnings() reports them.
   /// pinned   vertices of `garment` that the host moves with move_pins().
-  /// tacks    those that name a vertex that does not exist or was dropped are left out.
+  /// tacks    threads of the garment. A tack of a missing or dropped vertex is left out.
   /// Fails with kInvalidArgument (fabric or options out of range) or kUnusableGeometry (no usable triangle).
+  /// Cost: O(#V log #V).
   static engine::Result<Solver> make(const geometry::TriMesh& garment,
                                      std::span<const geometry::Index> pinned, const Fabric& fabric,
                                      const SolverOptions& options, std::span<const Tack> tacks = {});
@@ -139,17 +140,18 @@ class Solver {
   Solver(Solver&&) noexcept;
   Solver& operator=(Solver&&) noexcept;
 
-  /// Advances by dt_s; with 0 nothing moves, and the report is made. Allocates nothing once warm. For a body
-  /// that moves, call collider.move_to(shapes, dt_s) before each step, and once more with the same shapes
-  /// when it stops. The context's cancellation is ignored: a frame that has begun is finished. O(substeps x
-  /// iterations x #V), and O(#pairs of layers that are near) a substep; `bench/cloth` measures it.
+  /// Advances by dt_s. With 0 nothing moves, but the report is still made. It allocates nothing once warm.
+  /// For a body that moves, call collider.move_to(shapes, dt_s) before each step, and once more with the same
+  /// shapes when it stops. The context's cancellation is ignored: a frame that has begun is finished. Cost:
+  /// O(substeps x iterations x #V), and for self-contact O(#pairs of nearby parts) in each substep;
+  /// `bench/cloth` measures it.
   FrameReport step(const engine::Context& context, const collision::Collider& collider, double dt_s);
   /// Advances by dt_s without a body.
   FrameReport step(const engine::Context& context, double dt_s);
 
-  /// Puts the garment (#V, world meters), at rest, where it begins when that is not where it was made;
-  /// lengths at rest stay those of make(). Vertices that became one particle take the position of the first.
-  /// Returns false, and changes nothing, if the number differs or a value is not finite.
+  /// Moves the garment to other positions (#V, world meters) and stops it. Lengths at rest stay those of
+  /// make(). Vertices that became one particle take the position of the first of them. Returns false and
+  /// changes nothing if their number differs or a value is not finite.
   [[nodiscard]] bool set_positions(std::span<const geometry::Vec3> world_positions);
   /// Sets the positions of the pinned vertices at the end of the next step, in the order given to make().
   /// They move there in a straight line over the substeps. A value that is not finite leaves its pin
