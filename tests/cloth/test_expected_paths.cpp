@@ -15,7 +15,7 @@ TEST_CASE("the drift of cloth that has come to rest becomes zero, and never subn
   self.drift[1] = {1e-3f, 0.0f, -2.0f, 0.0f};
   self.drift[2] = {3e-9f, 1e-12f, 0.0f, 0.0f};
   for (int substep = 0; substep < 1000; ++substep) {
-    cloth::follow_drift({}, 1.0f / 480.0f, self);
+    cloth::update_drift({}, 1.0f / 480.0f, self);
     for (const cloth::Point& drift : self.drift)
       for (const float along : {drift.x, drift.y, drift.z}) CHECK(std::fpclassify(along) != FP_SUBNORMAL);
   }

@@ -48,7 +48,7 @@ struct EdgeSample {
 bool middle_is_pushed(std::span<const geometry::Ellipsoid> shapes, const Vec3& a, const Vec3& b) {
   EdgeSample middle(shapes, a, b);
   return cloth::is_on_its_side(middle.sample, middle.faces) ||
-         cloth::take_to_own_side(middle.body, middle.faces, middle.sample);
+         cloth::move_to_own_side(middle.body, middle.faces, middle.sample);
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ TEST_CASE("face contact: a sample that sank below the middle of a flat limb is p
   EdgeSample sunk(std::span(&flat, 1), Vec3(-0.02, 1.01, 0), Vec3(0.02, 1.01, 0), 0.012);
   CHECK(sunk.sample.normal[1] < -0.9f);
   CHECK(!cloth::is_on_its_side(sunk.sample, sunk.faces));
-  REQUIRE(cloth::take_to_own_side(sunk.body, sunk.faces, sunk.sample));
+  REQUIRE(cloth::move_to_own_side(sunk.body, sunk.faces, sunk.sample));
   CHECK(cloth::is_on_its_side(sunk.sample, sunk.faces));
   CHECK(sunk.pushed().y() == doctest::Approx(1.01).epsilon(1e-4));
 }
@@ -254,7 +254,7 @@ TEST_CASE("face contact: pushes of one substep do not add up beyond the recovery
   cloth::FaceContact faces;
   faces.rules.keep_m = static_cast<float>(kThickness_m), faces.rules.frame_s = 1.0f / 60.0f;
   faces.now = {{0.0f, 0.0f, 0.0f, 1.0f}, {0.03f, 0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 0.03f, 1.0f}};
-  faces.entered = faces.now;
+  faces.unpushed = faces.now;
   faces.nearest.assign(3, {.signed_distance = -0.005f});
   cloth::Particles particles;
   for (const cloth::Point& p : faces.now)

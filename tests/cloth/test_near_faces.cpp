@@ -30,7 +30,7 @@ TEST_CASE(
     const TriMesh mesh = folded_strip(angle);
     const cloth::ContactMesh leaves = cloth::make_contact_mesh(mesh);
     REQUIRE(leaves.leaves() == 2);
-    const float left_m = cloth::flat_for(leaves, 0, 1, points_of(mesh.positions));
+    const float left_m = cloth::travel_while_flat(leaves, 0, 1, points_of(mesh.positions));
     const double wanted =
         degrees > 120.0 ? 0.0 : kStripHeight_m * std::sin((75.0 - degrees / 2) * std::numbers::pi / 180.0);
     CHECK(double{left_m} == doctest::Approx(wanted).epsilon(1e-4));

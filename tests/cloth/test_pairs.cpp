@@ -35,7 +35,7 @@ struct Strip {
   void keep(float step_m) {
     // Quads are a quarter long, so that this gap makes pairs of neighbors.
     const cloth::ContactSource source{mesh, {0.25f, 0.1f, 0.0f, at, folded}, at, moves, off_m, loose};
-    cloth::keep_pairs(source, step_m, group(), tasks[0]);
+    cloth::update_pairs(source, step_m, group(), tasks[0]);
   }
   bool has_pairs() { return group().end > group().begin; }
 };

@@ -54,8 +54,8 @@ struct TwoSheets {
   /// Lists groups of what strayed by more than half of the spare distance.
   bool list() {
     const float most_m = 0.499f * self.spare_m;
-    cloth::strays({}, self.now, kSubstep_s, most_m, self);
-    return cloth::list_strayed(kSubstep_s, most_m, self);
+    cloth::measure_deviations({}, self.now, kSubstep_s, most_m, self);
+    return cloth::list_groups_of_strayed(kSubstep_s, most_m, self);
   }
 
   std::set<LeafPair> listed() const {
@@ -96,7 +96,8 @@ struct TwoSheets {
 }  // namespace
 
 TEST_CASE(
-    "strayed leaves: what strays to another layer has groups with it, and all others keep theirs in order") {
+    "strayed leaves: what measure_deviations to another layer has groups with it, and all others keep theirs "
+    "in order") {
   TwoSheets sheets;
   const std::set<LeafPair> before = sheets.listed();
   for (const auto& [row, column] : {std::pair(3, 5), std::pair(20, 20), std::pair(20, 21), std::pair(39, 0)})
@@ -137,7 +138,7 @@ TEST_CASE("strayed leaves: many, one that is very far, and a tree of other sweep
   far.lift(far.at(2, 2), 1.0);
   CHECK_FALSE(far.list());
   TwoSheets other;
-  other.self.swept = false;
+  other.self.tree_has_sweeps = false;
   other.lift(other.at(2, 2), 12e-3);
   CHECK_FALSE(other.list());
 }

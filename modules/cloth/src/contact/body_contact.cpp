@@ -206,7 +206,7 @@ std::uint32_t resolve_body_contacts(const engine::Context& context, const collis
       limits.fetch_or(reset, std::memory_order_relaxed);
     if (paper || collider == nullptr) velocities_from_positions(p, begin, end, inverse_h);
     if (s.motion.moving) std::fill(&s.motion.along[begin], &s.motion.along[begin] + (end - begin), 0.0f);
-    if (s.faces.on) enter_faces(faces, begin, end, p, s.faces);
+    if (s.faces.on) begin_face_substep(faces, begin, end, p, s.faces);
   });
   if (collider == nullptr) return limits.load();
   if (s.faces.on) {
@@ -216,7 +216,7 @@ std::uint32_t resolve_body_contacts(const engine::Context& context, const collis
   }
   // Particles come last, because their paths show on which side of the body they belong.
   engine::parallel_for(context, p.count(), kPatch, [&](std::size_t begin, std::size_t end) {
-    if (s.faces.on) leave_faces(begin, end, s.faces, p);
+    if (s.faces.on) end_face_substep(begin, end, s.faces, p);
     resolve_patch(alone, contact, begin, end, s, p);
     if (!paper) velocities_from_positions(p, begin, end, inverse_h);
     for (std::size_t i = begin; i < end; ++i) respond(p, s, i, contact);

@@ -13,7 +13,7 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-constexpr int kRounds = 6;              // of pushes
+constexpr int kRounds = 6;              // rounds of pushes, each followed by proofs of what they moved
 constexpr std::size_t kProofGrain = 4;  // runs a task
 constexpr std::size_t kBatch = 64;      // pieces that are queried together: a block of the collider
 constexpr int kMostCuts = 12;           // halvings of an edge: a meter becomes a quarter of a millimeter
@@ -82,12 +82,13 @@ class Prover {
     const engine::Context alone{.executor = &engine::inline_executor()};
     body_.query(alone, {.count = count, .x = x, .y = y, .z = z}, {contact, count},
                 {.within_m = slope_ * longest});
-    for (std::size_t k = 0; k < count; ++k) judge(batch[k], contact[k], slope_ * radius[k]);
+    for (std::size_t k = 0; k < count; ++k) decide(batch[k], contact[k], slope_ * radius[k]);
     return count;
   }
 
-  // `fall_m`: how much nearer to the body than its center a point of the piece may be.
-  void judge(const Piece& piece, const collision::Contact& center, float fall_m) {
+  // Decides about a piece by the contact of its center. A point of the piece may be nearer to the body than
+  // the center by `fall_m`.
+  void decide(const Piece& piece, const collision::Contact& center, float fall_m) {
     if (center.ellipsoid == collision::kNoEllipsoid || center.signed_distance - fall_m >= -tolerance_m_)
       return;
     if (center.signed_distance < -0.5f * tolerance_m_)
@@ -97,7 +98,8 @@ class Prover {
     if (!is_open(piece)) ++out_.open[run_], open_ |= bit_of(piece);
   }
 
-  // A triangle without a proof is given up until it has moved: its other pieces prove nothing.
+  // A triangle with an open piece is not looked at again until it has moved, because its other pieces cannot
+  // prove it.
   static_assert(kRun <= 64);
   std::uint64_t bit_of(const Piece& piece) const {
     return std::uint64_t{1} << (piece.element - f_.elements.run_begin[run_]);

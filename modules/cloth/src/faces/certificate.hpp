@@ -4,8 +4,8 @@
 // A distance changes by at most `slope` times the length of a path between two points. So a point at distance
 // d proves that a disc of radius (d + tolerance) / slope around it is not deeper than the tolerance. A
 // triangle that the disc of its center does not cover is cut in four, and so on. Points deeper than half the
-// tolerance are pushed out, each by its barycentric weights, and what moved is proved again. Cost follows
-// what is near.
+// tolerance are pushed out, each by its barycentric weights, and triangles that moved are proved again. The
+// cost grows with the cloth that is near the body.
 #pragma once
 
 #include <cstdint>
@@ -30,9 +30,9 @@ inline constexpr std::size_t kDeepARun = 64;
 /// Memory for the proofs of this garment.
 FaceCertificate make_certificate(const Elements& elements, std::size_t particles);
 
-/// Proves all triangles against the body as it stands at the end of a frame; pushes particles (x, y, z), not
-/// their velocities, where a point is too deep. Returns what is left without a proof. Allocates nothing; the
-/// same for any number of workers.
+/// Proves all triangles against the body in its pose at the end of a frame. Where a point is too deep, it
+/// moves particles (x, y, z) and leaves their velocities. Returns the number of triangles without a proof.
+/// Allocates nothing; the result is the same for any number of workers.
 FaceProof prove_faces(const engine::Context& context, const collision::Collider& body, float tolerance_m,
                       const FaceContact& faces, Particles& particles, FaceCertificate& certificate);
 

@@ -19,7 +19,7 @@ struct Element {
   bool is_edge() const { return particle[1] == particle[2]; }
 };
 
-/// Elements in a run: neighbors on the cloth with samples that are handled together.
+/// The number of elements in a run: neighbors on the cloth, with samples that are handled together.
 inline constexpr std::size_t kRun = 64;
 /// Particles in a cluster: consecutive ones with one bound on their travel.
 inline constexpr std::size_t kTravelCluster = 32;

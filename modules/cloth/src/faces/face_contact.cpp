@@ -14,21 +14,23 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-// Samples may sink by this share of the thickness between their neighbors.
+// Between two samples a point may be nearer to the body than the thickness by this share of it.
 constexpr float kSagOfThickness = 0.25f;
-// The least of that, and of the widest spacing, as shares of the median edge: for thin cloth of any scale.
+// Lower bounds of that distance and of the widest spacing, as shares of the median edge. They keep the number
+// of samples bounded for thin cloth.
 constexpr double kLeastSag = 0.005, kLeastSpacing = 0.5;
 // The widest spacing, in thicknesses: 12 mm at 1.5 mm, where a fingertip of 8 mm reaches through by 2 mm.
 constexpr double kSpacingOfThickness = 8.0;
-// A sample is queried anew after a path of so many sags. On a surface of radius rho a linear distance is
-// then off by (5 sag)^2 / (2 rho), a third of the sag at the finest features.
+// A sample is queried anew after a path of this many sags. A linear distance to a surface of radius rho is
+// then wrong by (5 sag)^2 / (2 rho), which is a third of the sag at the finest features.
 constexpr float kFresh = 5.0f;
-// Memory for samples: that of the widest spacing at rest, times this, and some for each element.
+// Memory is reserved for this multiple of the samples that the widest spacing gives at rest, and for
+// kMostAnElement samples of each element.
 constexpr std::size_t kRefined = 3, kMostAnElement = 2;
 constexpr int kSweeps = 2;
 constexpr std::size_t kRunGrain = 16;     // runs a task
 constexpr std::size_t kQueryGrain = 512;  // particles a task
-constexpr std::size_t kWorthTasks = 512;  // with fewer samples to look at, tasks cost more than they save
+constexpr std::size_t kWorthTasks = 512;  // with fewer samples to test, tasks cost more time than they save
 constexpr float kNever_m = 1e9f;
 constexpr float kRounding = 1.00001f;  // travel is rounded upward
 
@@ -36,8 +38,9 @@ bool is_due(const RunState& run) {
   return !(run.next_m > run.travel_m);
 }
 
-// How far a sample's motion in the frame may be off its elements' share of that of the particles.
-float motion_off(const FaceSample& s, const FaceContact& f) {
+// How far the shift of a sample differs from the shift that its particles' shifts give by its weights,
+// meters.
+float shift_mismatch_m(const FaceSample& s, const FaceContact& f) {
   if (!f.motion.moving) return 0.0f;
   const std::array<float, 3> weight = weights_of(s);
   Float4 off = -vector_of(s.shift);
@@ -45,14 +48,15 @@ float motion_off(const FaceSample& s, const FaceContact& f) {
   return std::sqrt(dot(off, off));
 }
 
-// What happens to a sample in a substep: it is queried anew, may be too near, has a surface behind it, or
-// none of these until it has traveled farther.
-struct Look {
+// The result of a sample's test. It needs a `query` if its distance is out of date, is `active` if it may be
+// too near, and is `behind` if the closest surface is on the wrong side. Otherwise it needs no test until it
+// has traveled `quiet_m`.
+struct SampleTest {
   bool query = false, active = false, behind = false;
   float quiet_m = 0.0f;
 };
 
-Look look_at(const FaceSample& s, Float4 where, const FaceContact& f) {
+SampleTest classify(const FaceSample& s, Float4 where, const FaceContact& f) {
   const SampleRules& r = f.rules;
   const Float4 from = where - vector_of(s.at);
   const float path = std::sqrt(dot(from, from));
@@ -66,28 +70,29 @@ Look look_at(const FaceSample& s, Float4 where, const FaceContact& f) {
   return {.behind = true, .quiet_m = stale_m};
 }
 
-// Looks at the samples of a run that may have come too near, and lists those to push, with distances that are
-// good enough.
+// Tests the samples of a run that may have come too near. It queries those whose distances are out of date,
+// and lists those to push.
 void refresh_run(const collision::Collider& body, const FaceSubstep& substep, std::size_t run,
                  FaceContact& f) {
   RunState& state = f.run[run];
   const auto [begin, end] = f.samples.of_run(f.elements, run);
   state.active = 0, state.next_m = kNever_m;
   SampleQuery query;
-  const auto settle = [&](std::uint32_t k, Look look) {
+  const auto store_result = [&](std::uint32_t k, SampleTest result) {
     FaceSample& sample = f.samples.all[k];
-    if (look.behind && take_to_own_side(body, f, sample)) look = look_at(sample, vector_of(sample.at), f);
-    const float quiet_m = look.quiet_m - substep.remaining * motion_off(f.samples.all[k], f);
-    f.until_m[k] = look.active || !(quiet_m > 0.0f) ? 0.0f : state.travel_m + quiet_m;
+    if (result.behind && move_to_own_side(body, f, sample))
+      result = classify(sample, vector_of(sample.at), f);
+    const float quiet_m = result.quiet_m - substep.remaining * shift_mismatch_m(f.samples.all[k], f);
+    f.until_m[k] = result.active || !(quiet_m > 0.0f) ? 0.0f : state.travel_m + quiet_m;
     state.next_m = std::min(state.next_m, f.until_m[k]);
-    if (look.active) f.active[begin + state.active++] = k;
+    if (result.active) f.active[begin + state.active++] = k;
   };
   const auto run_query = [&] {
     const std::size_t count = query.count;
     query.run(body, f.rules, f.motion, f.samples.all);
     for (std::size_t q = 0; q < count; ++q) {
       const std::uint32_t k = query.sample[q];
-      settle(k, look_at(f.samples.all[k], vector_of(f.samples.all[k].at), f));
+      store_result(k, classify(f.samples.all[k], vector_of(f.samples.all[k].at), f));
     }
   };
   for (std::uint32_t k = begin; k < end; ++k) {
@@ -95,10 +100,10 @@ void refresh_run(const collision::Collider& body, const FaceSubstep& substep, st
       state.next_m = std::min(state.next_m, f.until_m[k]);
       continue;
     }
-    const Float4 where = seen_by_body(f.samples.all[k], f.now, substep.remaining);
-    const Look look = look_at(f.samples.all[k], where, f);
-    if (!look.query) {
-      settle(k, look);
+    const Float4 where = in_end_pose(f.samples.all[k], f.now, substep.remaining);
+    const SampleTest result = classify(f.samples.all[k], where, f);
+    if (!result.query) {
+      store_result(k, result);
       continue;
     }
     query.add(k, where);
@@ -107,7 +112,7 @@ void refresh_run(const collision::Collider& body, const FaceSubstep& substep, st
   run_query();
 }
 
-// Adds the substep's travel to all runs; returns the number of samples in those to look at.
+// Adds the substep's travel to all runs; returns the number of samples in runs that need a test.
 std::size_t travel(FaceContact& f) {
   std::size_t work = 0;
   for (std::size_t run = 0; run < f.run.size(); ++run) {
@@ -164,7 +169,7 @@ FaceContact make_face_contact(const geometry::TriMesh& mesh, const Topology& top
   f.samples = make_face_samples(f.elements, particles.count(), most);
   f.active.resize(most), f.until_m.resize(most);
   f.run.resize(f.elements.runs()), f.group_pushed.resize(f.elements.groups());
-  f.nearest.resize(particles.count()), f.now.resize(particles.count()), f.entered.resize(particles.count());
+  f.nearest.resize(particles.count()), f.now.resize(particles.count()), f.unpushed.resize(particles.count());
   f.step_m.resize(engine::block_count(particles.count(), kTravelCluster));
   return f;
 }
@@ -193,25 +198,25 @@ void begin_face_frame(const engine::Context& context, const ContactFrame& frame,
   f.on = !f.samples.all.empty();
   std::ranges::fill(f.run, RunState{});
   std::fill_n(f.until_m.begin(), f.samples.all.size(), 0.0f);
-  for (std::size_t i = 0; i < p.count(); ++i) f.entered[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
+  for (std::size_t i = 0; i < p.count(); ++i) f.unpushed[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
 }
 
-void enter_faces(const FaceSubstep& substep, std::size_t begin, std::size_t end, const Particles& p,
-                 FaceContact& f) {
+void begin_face_substep(const FaceSubstep& substep, std::size_t begin, std::size_t end, const Particles& p,
+                        FaceContact& f) {
   for (std::size_t from = begin; from < end; from += kTravelCluster) {
     float longest2 = 0.0f;
     for (std::size_t i = from; i < std::min(from + kTravelCluster, end); ++i) {
       const Float4 at = load(p.point[i]);
-      Float4 path = xyz(at) - load(f.entered[i]);
+      Float4 path = xyz(at) - load(f.unpushed[i]);
       if (f.motion.moving) path -= substep.share * xyz(load(f.motion.shift[i]));
       longest2 = std::max(longest2, dot(path, path));
-      store(f.entered[i], xyz(at)), store(f.now[i], at);
+      store(f.unpushed[i], xyz(at)), store(f.now[i], at);
     }
     f.step_m[from / kTravelCluster] = std::sqrt(longest2);
   }
 }
 
-void leave_faces(std::size_t begin, std::size_t end, const FaceContact& f, Particles& p) {
+void end_face_substep(std::size_t begin, std::size_t end, const FaceContact& f, Particles& p) {
   for (std::size_t i = begin; i < end; ++i) p.x[i] = f.now[i].x, p.y[i] = f.now[i].y, p.z[i] = f.now[i].z;
 }
 
@@ -238,7 +243,7 @@ FaceReport report_faces(const FaceContact& f) {
   report.contacts = f.contacts;
   for (std::size_t group = 0; group < f.elements.groups(); ++group) {
     for_each_active(f, group, [&](const FaceSample& s) {
-      report.deepest_m = std::max(report.deepest_m, -distance_at(s, seen_by_body(s, f.now, 0.0f)));
+      report.deepest_m = std::max(report.deepest_m, -distance_at(s, in_end_pose(s, f.now, 0.0f)));
     });
   }
   return report;

@@ -17,10 +17,10 @@
 
 namespace bodice::inline v0_1::cloth {
 
-/// What a run of elements did since the frame began.
+/// The state of a run of elements since the frame began.
 struct RunState {
-  float travel_m = 0.0f;     ///< bounds the path of each of its samples, relative to the body
-  float next_m = 0.0f;       ///< travel up to which no sample needs to be looked at
+  float travel_m = 0.0f;     ///< upper bound of the path of each of its samples, relative to the body
+  float next_m = 0.0f;       ///< while `travel_m` is less, no sample needs a test
   std::uint32_t active = 0;  ///< samples that may be too near
 };
 
@@ -30,27 +30,32 @@ struct FaceContact {
   FaceSamples samples;
   SampleRules rules;
   std::vector<collision::Contact> nearest;  ///< #P: contacts of the particles when the frame began
-  std::vector<Point> now;                   ///< #P: positions that are pushed, with weights
-  std::vector<Point> entered;               ///< #P: positions when the substep before began to push
-  std::vector<float> step_m;                ///< #clusters: longest path between these, relative to the body
-  std::vector<RunState> run;                ///< #runs
-  std::vector<float> until_m;         ///< #samples: travel of its run up to which one need not be looked at
-  std::vector<std::uint32_t> active;  ///< from a run's first sample on: its samples that may be too near
+  /// #P: positions of this substep, which pushes change; their weights are inverse masses.
+  std::vector<Point> now;
+  std::vector<Point> unpushed;  ///< #P: positions before the pushes of the last substep
+  /// #clusters: longest path of a particle since the last substep, relative to the body.
+  std::vector<float> step_m;
+  std::vector<RunState> run;   ///< #runs
+  std::vector<float> until_m;  ///< #samples: while its run's travel is less, a sample needs no test
+  /// For each run, from the index of its first sample on: its samples that may be too near.
+  std::vector<std::uint32_t> active;
   std::vector<std::uint64_t> group_pushed;  ///< #groups: samples that the last sweep pushed
   std::uint64_t contacts = 0;               ///< samples that were pushed in this frame
   MotionNearParticles motion;
   bool on = false;  ///< whether there are samples in this frame
 };
 
-/// The contact of this garment at rest with a body, at the thickness of the options.
+/// Makes the face contact of a garment at rest. It is empty without SolverOptions::face_contact, and for the
+/// paper's response.
 FaceContact make_face_contact(const geometry::TriMesh& mesh, const Topology& topology,
                               const SolverOptions& options, double median_edge_m, const Particles& particles);
 
-/// Queries the particles as they are, for a body that stands still: fills `nearest`.
+/// Queries the particles for a body that stands still, and stores their contacts in `nearest`.
 void query_particles(const engine::Context& context, const collision::Collider& body, FaceContact& faces,
                      Particles& particles);
 
-/// Begins a frame with a body. `nearest` of `faces` has the particles' contacts.
+/// Begins a frame with a body: chooses and queries its samples. Precondition: `faces.nearest` has the
+/// particles' contacts.
 void begin_face_frame(const engine::Context& context, const ContactFrame& frame,
                       const Environment& environment, const MotionNearParticles& motion,
                       const Particles& particles, FaceContact& faces);
@@ -62,18 +67,19 @@ struct FaceSubstep {
   float remaining = 0.0f;  ///< share of the frame that is left after it
 };
 
-/// Takes the points of the particles [begin, end), which are whole clusters, to be pushed in this substep.
-void enter_faces(const FaceSubstep& substep, std::size_t begin, std::size_t end, const Particles& particles,
-                 FaceContact& faces);
+/// Begins a substep: copies the points of the particles [begin, end), which are whole clusters, to `now`, and
+/// measures how far the clusters moved.
+void begin_face_substep(const FaceSubstep& substep, std::size_t begin, std::size_t end,
+                        const Particles& particles, FaceContact& faces);
 
-/// Moves what enter_faces() took until no sample is too near, as far as few sweeps lead. old_* are the
+/// Pushes the points in `now` until no sample is too near, or a few sweeps have been made. old_* are the
 /// particles' positions at the start of the substep. Samples that have not traveled far enough to come too
-/// near are not looked at, so that cost follows what is near and moves.
+/// near are not tested, so that the cost grows with the samples that are near and move.
 void push_faces_out(const engine::Context& context, const collision::Collider& body,
                     const FaceSubstep& substep, const Particles& particles, FaceContact& faces);
 
-/// Writes what was pushed to the positions (x, y, z) of the particles [begin, end).
-void leave_faces(std::size_t begin, std::size_t end, const FaceContact& faces, Particles& particles);
+/// Ends a substep: copies the points in `now` to the positions (x, y, z) of the particles [begin, end).
+void end_face_substep(std::size_t begin, std::size_t end, const FaceContact& faces, Particles& particles);
 
 /// What happened since the frame began.
 FaceReport report_faces(const FaceContact& faces);

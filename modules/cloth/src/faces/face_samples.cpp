@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kElementGrain = 1024;
 constexpr std::size_t kQueriedRuns = 16;  // runs a task of queries
-// Samples are placed where the cloth may come within the frame if it moves this many times as far as its
-// speed leads: constraints pull some of it faster.
+// Samples are placed where cloth may come near the body if it moves this multiple of the path that its speed
+// gives. Constraints pull some cloth faster.
 constexpr float kSpare = 2.0f;
 constexpr float kFarthest_m = 1e6f;  // in place of an infinite distance
 
@@ -28,29 +28,30 @@ float length2(Float4 v) {
   return dot(v, v);
 }
 
-// What the choice of the samples of one frame depends on.
+// The data by which the samples of one frame are chosen.
 struct Placement {
   const SampleRules& rules;
   const Particles& p;
   BodyNearParticles near;
   std::span<ParticleRoom> room;
-  float widening = 1.0f;  // above 1 if there is no room for all samples
+  float widening = 1.0f;  // factor on all spacings; above 1 where memory does not suffice
 
   float longest2(const Element& e) const {
     const auto [a, b, c] = e.particle;
     const float ab = length2(at(p, a) - at(p, b));
     return e.is_edge() ? ab : std::max({ab, length2(at(p, b) - at(p, c)), length2(at(p, c) - at(p, a))});
   }
-  // How much farther from the body particle i stays in the frame than it has to.
+  // How much farther from the body particle i stays within the frame than the distance to keep.
   float to_spare(Index i) const {
     return std::max(0.0f, room[i].distance_m - room[i].reach_m - rules.keep_m);
   }
-  // What a distance may fall below its interpolation between samples of the element.
+  // The allowed error of the distance interpolated between samples of the element. Where all corners stay
+  // far, it is larger.
   float sag(const Element& e) const {
     const auto [a, b, c] = e.particle;
     return rules.sag_m + std::min({to_spare(a), to_spare(b), to_spare(c)});
   }
-  // Parts that the edge from i to j needs, if a distance may fall by `allowed_m` between samples.
+  // The number of parts that the edge from i to j needs, if the interpolated distance may err by `allowed_m`.
   float parts(Index i, Index j, float allowed_m) const {
     const Float4 edge = at(p, j) - at(p, i);
     const float by_length = length(edge) / (rules.spacing_m * widening);
@@ -152,9 +153,9 @@ void query_samples(const Placement& how, const SampleRange& range, std::span<Fac
   query.run(body, how.rules, motion, samples);
 }
 
-// The turn of normals between neighboring samples of an element shows which parts it needs next time.
+// The number of parts that an element needs in the next frame, by how fast normals turn between its samples.
 int wanted_parts(const Placement& how, const Elements& elements, const FaceSamples& s, std::size_t e) {
-  // A need that is over is forgotten slowly, or samples would come and go.
+  // The number falls by one a frame only, because samples would otherwise come and go.
   const int kept = std::max(0, s.wanted[e] - 1);
   if (s.begin[e + 1] <= s.begin[e] + 1) return kept;
   float sharpest = 0.0f;  // turn of the normals, a length of path
@@ -193,8 +194,8 @@ std::size_t count_at_rest(const Elements& elements, const Particles& p, float sp
   return total;
 }
 
-void take_contact(const collision::Collider& body, const MotionNearParticles& motion,
-                  const collision::Contact& contact, float frame_s, FaceSample& s) {
+void set_contact(const collision::Collider& body, const MotionNearParticles& motion,
+                 const collision::Contact& contact, float frame_s, FaceSample& s) {
   s.distance_m = contact.signed_distance;
   std::ranges::copy(contact.normal, s.normal);
   if (!motion.moving) return;
@@ -219,7 +220,7 @@ void SampleQuery::run(const collision::Collider& body, const SampleRules& rules,
     const bool near = c.ellipsoid != collision::kNoEllipsoid;
     s.distance_m = band_m;
     for (float& n : s.normal) n = 0.0f;
-    if (near) take_contact(body, motion, c, rules.frame_s, s);
+    if (near) set_contact(body, motion, c, rules.frame_s, s);
   }
   count = 0;
 }

@@ -4,10 +4,10 @@
 // at every point is semiconcave, with constant 1 / rho. So it lies below the interpolation of its values at
 // the corners of a triangle by up to r^2 / (2 rho), r the circumradius, and along an edge by up to e^2 / (8
 // rho); unions keep that, because the least of semiconcave functions is one. The turn of the normals from one
-// end to the other measures e^2 / rho. An edge is cut until what is left is below a tolerance, and at least
-// as finely as a sharp feature of a body needs that no corner sees. Based on: Piermarco Cannarsa, Carlo
-// Sinestrari. Semiconcave Functions, Hamilton-Jacobi Equations, and Optimal Control. 2004. - section 2.2
-// (distances).
+// end to the other measures e^2 / rho. An edge is cut into parts until this error is below a tolerance. It
+// has at least the samples of a fixed spacing, because a sharp feature may rise between its corners.
+// Based on: Piermarco Cannarsa, Carlo Sinestrari. Semiconcave Functions, Hamilton-Jacobi Equations, and
+// Optimal Control. 2004. - section 2.2 (distances).
 #pragma once
 
 #include <array>
@@ -25,30 +25,30 @@ namespace bodice::inline v0_1::cloth {
 /// A point of the cloth with the body's distance near it, to first order.
 struct alignas(64) FaceSample {
   Index particle[3] = {};
-  float weight[2] = {};     ///< barycentric, of the first two particles
+  float weight[2] = {};     ///< barycentric weights of the first two particles
   float at[3] = {};         ///< where the distance was queried, in the body's pose at the end of the frame
-  float normal[3] = {};     ///< of the body there
-  float distance_m = 0.0f;  ///< there; at least the band if nothing is in it
-  float shift[3] = {};      ///< how far the body sees it displaced when the frame begins, meters
+  float normal[3] = {};     ///< normal of the body there
+  float distance_m = 0.0f;  ///< distance to the body there; the query band where nothing is within it
+  float shift[3] = {};      ///< its shift for a whole frame, meters, as BodyMotion::shift of a particle
   float keep_m = 0.0f;      ///< distance to keep; less beside a pin that the host holds nearer
 };
 
 /// Lengths that decide which elements are sampled, and how densely.
 struct SampleRules {
   float keep_m = 0.0f;                ///< distance that the cloth keeps from the proxy
-  float sag_m = 0.0f;                 ///< what a distance may fall below its interpolation between samples
+  float sag_m = 0.0f;                 ///< largest error of the distance interpolated between samples
   float spacing_m = 0.0f;             ///< the widest spacing of samples near the body
   float slope = 1.0f, rise_m = 0.0f;  ///< a distance falls by at most slope times the path, plus rise_m
   float frame_s = 0.0f;
   float fall_m = 0.0f;  ///< travel that gravity adds in a frame
 };
 
-/// Distance up to which samples are queried; a farther one has this distance.
+/// The distance up to which samples are queried. A sample that is farther away gets this distance.
 inline float band_of(const SampleRules& rules) {
   return rules.keep_m + rules.rise_m + rules.spacing_m;
 }
 
-/// The body's motion in a frame near each particle (#P), and what pushes of it add up to, as in BodyMotion.
+/// The parts of BodyMotion that samples use: the body's motion in a frame near each particle (#P).
 struct MotionNearParticles {
   std::span<const Point> shift, turn;
   std::span<float> along;
@@ -59,14 +59,15 @@ struct MotionNearParticles {
 /// The body near the particles in a frame.
 struct BodyNearParticles {
   const collision::Collider& body;
-  std::span<const collision::Contact> nearest;  ///< #P: the particles' contacts in the body's motion
+  std::span<const collision::Contact> nearest;  ///< #P: contacts of the particles, shifted as the body moves
   const MotionNearParticles& motion;
 };
 
 /// The room that the body leaves a particle in a frame.
 struct ParticleRoom {
-  float distance_m = 0.0f;  ///< large beyond the query band
-  float reach_m = 0.0f;     ///< how far it may come, relative to the body, within the frame
+  /// Distance to the body when the frame begins; a large value beyond the query band.
+  float distance_m = 0.0f;
+  float reach_m = 0.0f;  ///< bound on its path in the frame, relative to the body
 };
 
 /// Samples [begin, end).
@@ -78,10 +79,12 @@ struct SampleRange {
 struct FaceSamples {
   std::vector<FaceSample> all;
   std::vector<std::uint32_t> begin;  ///< #elements + 1: first sample of each
-  std::vector<std::uint8_t> parts;   ///< #elements: into how many its edges are cut; 0: not near the body
-  std::vector<std::uint8_t> wanted;  ///< #elements: parts that the last frame's samples showed to be needed
-  std::vector<ParticleRoom> room;    ///< #P
-  std::size_t most = 0;              ///< number of samples that memory is reserved for
+  /// #elements: the number of parts of each edge; 0: the element is not near the body.
+  std::vector<std::uint8_t> parts;
+  /// #elements: the parts that the curvature at the last frame's samples requires.
+  std::vector<std::uint8_t> wanted;
+  std::vector<ParticleRoom> room;  ///< #P
+  std::size_t most = 0;            ///< number of samples that memory is reserved for
 
   SampleRange of_run(const Elements& elements, std::size_t run) const {
     return {begin[elements.run_begin[run]], begin[elements.run_begin[run + 1]]};
@@ -94,14 +97,14 @@ FaceSamples make_face_samples(const Elements& elements, std::size_t particles, s
 /// The number of samples that the widest spacing gives for the garment at rest.
 std::size_t count_at_rest(const Elements& elements, const Particles& particles, float spacing_m);
 
-/// Chooses the samples of a frame and queries them. Allocates nothing; with too many samples all are spaced
-/// more widely. The same for any number of workers.
+/// Chooses the samples of a frame and queries them. Where they exceed the reserved memory, all are spaced
+/// more widely. Allocates nothing; the result is the same for any number of workers.
 void place_samples(const engine::Context& context, const BodyNearParticles& near, const SampleRules& rules,
                    const Elements& elements, const Particles& particles, FaceSamples& samples);
 
 /// Gives a sample the distance, the normal and the motion of a contact.
-void take_contact(const collision::Collider& body, const MotionNearParticles& motion,
-                  const collision::Contact& contact, float frame_s, FaceSample& sample);
+void set_contact(const collision::Collider& body, const MotionNearParticles& motion,
+                 const collision::Contact& contact, float frame_s, FaceSample& sample);
 
 /// Queries the listed samples at positions (x, y, z) in the body's pose at the end of the frame.
 struct SampleQuery {

@@ -6,13 +6,14 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-// The least length of the mean of the normals at the particles: with a shorter one they lie around a limb.
+// The least length of the mean of the normals at the particles. Where it is shorter, the particles lie around
+// a limb.
 constexpr float kAgreement = 0.5f;
-// The least cosine between that mean and the normal of the surface that is met.
+// The least cosine between that mean and the normal of the surface that the ray meets.
 constexpr float kFacing = 0.5f;
 constexpr int kMostSteps = 8;
-// Where the path begins, in distances that the cloth keeps, above the planes of the surface at the particles;
-// and how near to the surface it ends, in sags.
+// kAbove: the height above the surface at the particles at which the ray begins, as a multiple of the
+// distance to keep. kMetWithin: the distance at which it has met a surface, as a share of the sag.
 constexpr float kAbove = 2.0f, kMetWithin = 0.1f;
 
 struct Corner {
@@ -20,7 +21,7 @@ struct Corner {
   float weight;
 };
 
-// Calls visit(corner) for the particles of a sample that have a share in it.
+// Calls visit(corner) for the particles of a sample with a weight above zero.
 template <class Visit>
 void for_each_corner(const FaceSample& s, const FaceContact& f, Visit&& visit) {
   const std::array<float, 3> weight = weights_of(s);
@@ -32,8 +33,8 @@ bool is_near(const Corner& corner, const FaceContact& f) {
   return corner.contact.signed_distance < f.rules.keep_m + f.rules.spacing_m;
 }
 
-// The path from above the surface at the particles to the sample: `length_m` along the unit vector `out`, and
-// how far the surface at any of them is from the sample.
+// The ray that descends to a sample from outside, `length_m` long, against the unit vector `out`. `widest_m`
+// is the largest distance from the sample to the surface at one of its particles.
 struct Descent {
   Float4 out = {};
   float length_m = 0.0f, widest_m = 0.0f;
@@ -59,7 +60,8 @@ Descent descent_to(const FaceSample& s, const FaceContact& f) {
   return descent;
 }
 
-// The contact where the descent meets the body, if it does before it comes to the sample.
+// The contact where the ray meets the body before it comes to the sample; without an ellipsoid where it does
+// not.
 collision::Contact meet(const collision::Collider& body, const Descent& descent, const FaceSample& s,
                         float within_m) {
   float left_m = descent.length_m;
@@ -85,7 +87,7 @@ bool is_on_its_side(const FaceSample& s, const FaceContact& f) {
   return holds;
 }
 
-bool take_to_own_side(const collision::Collider& body, const FaceContact& f, FaceSample& sample) {
+bool move_to_own_side(const collision::Collider& body, const FaceContact& f, FaceSample& sample) {
   const Descent descent = descent_to(sample, f);
   if (!(descent.length_m > 0.0f)) return false;
   const collision::Contact met = meet(body, descent, sample, kMetWithin * f.rules.sag_m);
@@ -94,7 +96,7 @@ bool take_to_own_side(const collision::Collider& body, const FaceContact& f, Fac
   const float depth_m = dot(normal, vector_of(met.point) - vector_of(sample.at));
   if (!(dot(normal, descent.out) > kFacing) || !(depth_m > 0.0f) || depth_m > descent.widest_m) return false;
   FaceSample taken = sample;
-  take_contact(body, f.motion, met, f.rules.frame_s, taken);
+  set_contact(body, f.motion, met, f.rules.frame_s, taken);
   taken.distance_m = -depth_m;
   if (!is_on_its_side(taken, f)) return false;
   sample = taken;

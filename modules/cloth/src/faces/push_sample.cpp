@@ -5,17 +5,17 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-// How much farther a sample may be pushed in a substep. What it came nearer in this substep is undone at
-// once, and the rest at the recovery speed. What its neighbors pushed it meanwhile is part of that, or
-// together they would throw the cloth.
+// The longest push of a sample that is left in this substep. The approach within the substep may be undone at
+// once, greater depth at the recovery speed only. Pushes of neighboring samples count as well, because all
+// together would otherwise throw the cloth.
 float longest_push(const FaceSample& s, Float4 normal, const FaceSubstep& substep, const FaceContact& f,
                    const Particles& p) {
   const std::array<float, 3> weight = weights_of(s);
   Float4 path = -(substep.length_s / f.rules.frame_s) * vector_of(s.shift), pushed = splat(0.0f);
   for (int c = 0; c < 3; ++c) {
     const Index i = s.particle[c];
-    path += weight[c] * (load(f.entered[i]) - Float4{p.old_x[i], p.old_y[i], p.old_z[i], 0.0f});
-    pushed += weight[c] * (load(f.now[i]) - load(f.entered[i]));
+    path += weight[c] * (load(f.unpushed[i]) - Float4{p.old_x[i], p.old_y[i], p.old_z[i], 0.0f});
+    pushed += weight[c] * (load(f.now[i]) - load(f.unpushed[i]));
   }
   const float nearer = std::max(0.0f, -dot(normal, path));
   return std::max(0.0f, kFromBody_m_s * substep.length_s + nearer - dot(normal, pushed));
@@ -31,9 +31,8 @@ Float4 normal_now(const FaceSample& s, float remaining, const FaceContact& f) {
   return turned(normal, -remaining * turn);
 }
 
-// Whether no free corner of a sample can be out of the body within the frame. Contact of particles brings
-// such corners out, and the sample with them; many deep samples that pull at the same corners would throw
-// them.
+// Whether no free corner of a sample can leave the body within the frame. Contact of particles brings such
+// corners out, and the sample with them. Many deep samples that push the same corners would throw them.
 bool corners_are_deep(const FaceSample& s, const FaceContact& f) {
   const float deep_m = f.rules.keep_m - kFromBody_m_s * f.rules.frame_s;
   return std::ranges::all_of(s.particle, [&](Index i) {
@@ -44,7 +43,7 @@ bool corners_are_deep(const FaceSample& s, const FaceContact& f) {
 }  // namespace
 
 bool push_out(const FaceSample& s, const FaceSubstep& substep, const Particles& p, FaceContact& f) {
-  const float room = distance_at(s, seen_by_body(s, f.now, substep.remaining)) - s.keep_m;
+  const float room = distance_at(s, in_end_pose(s, f.now, substep.remaining)) - s.keep_m;
   if (!(room < 0.0f)) return false;
   const std::array<float, 3> weight = weights_of(s);
   const std::array<float, 3> inverse_mass = {f.now[s.particle[0]].weight, f.now[s.particle[1]].weight,

@@ -7,8 +7,8 @@
 
 namespace bodice::inline v0_1::cloth {
 
-/// Position of a sample in the body's pose at the end of the frame.
-inline Float4 seen_by_body(const FaceSample& s, std::span<const Point> now, float remaining) {
+/// The position of a sample, shifted to the body's pose at the end of the frame.
+inline Float4 in_end_pose(const FaceSample& s, std::span<const Point> now, float remaining) {
   return position(s, now) + remaining * vector_of(s.shift);
 }
 
@@ -17,11 +17,11 @@ inline float distance_at(const FaceSample& s, Float4 where) {
   return s.distance_m + dot(vector_of(s.normal), where - vector_of(s.at));
 }
 
-/// No corner moves farther than this many times the push of its sample. A sample near a pinned corner yields
-/// only if the other corners move many times as far, which tears the cloth.
+/// No corner moves farther than this multiple of the push. A sample near a pinned corner could otherwise move
+/// only if the other corners moved many times as far, which would tear the cloth.
 inline constexpr float kLongestLever = 2.0f;
 
-/// What a push is divided by: corner c moves by its inverse mass times its weight times push / yielding.
+/// The divisor of a push: corner c moves by push times its inverse mass times its weight, divided by this.
 inline float yielding_of(const std::array<float, 3>& weight, const std::array<float, 3>& inverse_mass) {
   float all = 0.0f, most = 0.0f;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -32,8 +32,8 @@ inline float yielding_of(const std::array<float, 3>& weight, const std::array<fl
   return std::max(all, most / kLongestLever);
 }
 
-/// Moves the corners of a sample that is too near; returns false where it is not, or is left to its
-/// particles.
+/// Moves the corners of a sample that is too near. Returns false for a sample that is not, or is so deep that
+/// contact of its particles moves it.
 bool push_out(const FaceSample& sample, const FaceSubstep& substep, const Particles& particles,
               FaceContact& faces);
 

@@ -10,7 +10,7 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-constexpr int kMostAdvances = 24;  // steps along a path; a path that takes more is taken to meet
+constexpr int kMostAdvances = 24;  // steps along a path; if they do not suffice, the parts count as meeting
 constexpr float kAdvance = 0.9f;   // share of the safe path that a step takes, for rounding
 
 Closest of_weights(const Corners& c, Float4 weight) {
@@ -58,7 +58,7 @@ Closest closest_of_edges(const Corners& corners) {
   const Float4 *const at = corners.at, along_a = at[1] - at[0], along_b = at[3] - at[2], r = at[0] - at[2];
   const float a = dot(along_a, along_a) + kTinyLength2, e = dot(along_b, along_b) + kTinyLength2;
   const float b = dot(along_a, along_b), c = dot(along_a, r), f = dot(along_b, r);
-  const float across = a * e - b * b;  // zero for parallel edges, where any point of A does
+  const float across = a * e - b * b;  // zero for parallel edges, where any point of A will serve
   float s = across > 1e-6f * a * e ? clamped((b * f - c * e) / across) : 0.5f;
   float t = (b * s + f) / e;
   if (t < 0.0f) {

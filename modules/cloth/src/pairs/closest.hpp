@@ -34,8 +34,8 @@ inline Closest closest(bool edges, const Corners& corners) {
   return edges ? closest_of_edges(corners) : closest_on_triangle(corners);
 }
 
-/// How far A lies from B along the unit vector `normal` at least, meters: positive where a plane across it
-/// separates them.
+/// The least distance of A from B along the unit vector `normal`, meters. It is positive where a plane across
+/// the normal separates them.
 inline float separation(bool edges, const Corners& corners, Float4 normal) {
   const float d0 = dot(corners.at[0], normal), d1 = dot(corners.at[1], normal),
               d2 = dot(corners.at[2], normal), d3 = dot(corners.at[3], normal);
@@ -43,8 +43,9 @@ inline float separation(bool edges, const Corners& corners, Float4 normal) {
   return edges ? (d0 < d1 ? d0 : d1) - b : d0 - (d1 > b ? d1 : b);
 }
 
-/// Whether the parts come nearer than `least_m` anywhere while their corners move straight by `by` from
-/// `from`; in doubt, they do. They are farther apart at the start.
+/// Whether the parts may come nearer than `least_m` while their corners move straight by `by` from `from`. It
+/// returns true as well where it cannot prove that they do not. Precondition: they are farther apart at the
+/// start.
 bool may_meet(bool edges, Corners from, const Corners& by, float least_m);
 
 }  // namespace bodice::cloth

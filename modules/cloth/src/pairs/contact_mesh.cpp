@@ -70,7 +70,7 @@ void find_stars(std::size_t particles, ContactMesh& out) {
     for (const Index i : out.faces[f].particle) out.star[next[i]++] = f;
 }
 
-// A particle is simple if its triangles are joined across its edges, which leaves at most two ends.
+// A particle is simple if its triangles form one fan. Then all of its edges but at most two join two of them.
 std::vector<bool> find_simple(const geometry::TriMesh& mesh, const Joints& joints) {
   std::vector<int> corners(mesh.positions.size(), 0), joined(mesh.positions.size(), 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)

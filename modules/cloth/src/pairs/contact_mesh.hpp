@@ -1,5 +1,6 @@
-// The triangles of a garment as self-contact meets them: in leaves, which are small connected patches, each
-// particle and edge owned by one of its triangles, so that a pair of parts is found by one pair of triangles.
+// The triangles of a garment in leaves, which are small connected patches, for self-contact. Each particle
+// and each edge is owned by one of its triangles. So each pair of parts is found once, by the pair of
+// triangles that own them.
 // Based on: Sean Curtis, Rasmus Tamstorf, Dinesh Manocha. Fast Collision Detection for Deformable Models
 // using Representative-Triangles. 2008.
 #pragma once
@@ -17,12 +18,12 @@ namespace bodice::inline v0_1::cloth {
 inline constexpr std::size_t kLeaf = 8;  ///< the most triangles in a leaf
 inline constexpr std::size_t kNoBlock = ~std::size_t{0};
 
-/// A triangle and the parts that it owns.
+/// A triangle, and the particles and edges that it owns.
 struct Face {
   Index particle[3] = {};
   std::uint8_t particles = 0;  ///< bit k: it owns particle k
   std::uint8_t edges = 0;      ///< bit k: it owns the edge from particle k to the next one
-  bool turned = false;         ///< whether its winding is against that of the patch it belongs to
+  bool turned = false;         ///< whether its winding is opposite to that of its patch
 };
 
 /// Leaves of triangles: first those inside blocks of particles (base/schedule.hpp), block by block, then
@@ -51,10 +52,10 @@ struct ContactMesh {
   }
 };
 
-/// Sorts the triangles of a welded garment with particles in Morton order. O(n log n).
+/// Divides the triangles of a welded garment, whose particles are in Morton order, into leaves. O(n log n).
 ContactMesh make_contact_mesh(const geometry::TriMesh& mesh);
 
-/// Whether two leaves are one, or one patch of the surface around a common particle.
+/// Whether two leaves are the same, or share a particle around which the surface is one patch.
 bool are_joined(const ContactMesh& mesh, std::size_t leaf, std::size_t other);
 
 }  // namespace bodice::cloth

@@ -9,15 +9,16 @@ namespace {
 
 // The square of the least cosine between the normals of a flat patch and their mean: 60 degrees.
 constexpr float kFlat2 = 0.25f;
-// Sine and cosine of the largest angle between a patch's mean normal and one of its normals until the patch
-// is looked at again: 75 degrees. From 90 on, it may lie over itself.
+// Sine and cosine of 75 degrees, the angle to the mean normal that no normal can reach before the patch is
+// tested again. With angles of 90 degrees a patch may lie over itself.
 constexpr float kSinMost = 0.9659258f, kCosMost = 0.2588190f;
 
 Float4 middle(const Float4 (&corner)[3]) {
   return (corner[0] + corner[1] + corner[2]) * (1.0f / 3.0f);
 }
 
-// Whether all corners but common ones keep the distance from a plane through the common ones.
+// Whether all corners but the common ones are farther than `reach_m` from a plane through the common ones,
+// those of a in front of it and those of b behind it.
 bool are_on_sides(const FacePair& p, Float4 direction, float reach_m) {
   const float wanted = reach_m * std::sqrt(dot(direction, direction) + kTinyLength2);
   const Float4 through = p.a[p.shared[0][0]];
@@ -33,7 +34,7 @@ bool are_on_sides(const FacePair& p, Float4 direction, float reach_m) {
   return true;
 }
 
-// A direction that points from b to a, seen from what they share.
+// A direction from b to a, as seen from their common corner or edge.
 Float4 between(const FacePair& p) {
   const Float4 at = p.a[p.shared[0][0]];
   Float4 to_a = middle(p.a) - at, to_b = middle(p.b) - at;
@@ -44,7 +45,7 @@ Float4 between(const FacePair& p) {
   return unit(to_a) - unit(to_b);
 }
 
-// The normal of a triangle, by twice its area, and the square of its longest edge.
+// The normal of a triangle, as long as twice its area, and the square of its longest edge.
 struct FaceNormal {
   Float4 normal;
   float edge2;
@@ -83,7 +84,8 @@ bool are_clear(const FacePair& p, float reach_m) {
   return p.common == 3 || are_on_sides(p, between(p), reach_m);
 }
 
-float flat_for(const ContactMesh& mesh, std::size_t leaf, std::size_t other, std::span<const Point> at) {
+float travel_while_flat(const ContactMesh& mesh, std::size_t leaf, std::size_t other,
+                        std::span<const Point> at) {
   FaceNormal faces[2 * kLeaf];
   Float4 mean = splat(0.0f);
   std::size_t count = 0;
@@ -98,7 +100,7 @@ float flat_for(const ContactMesh& mesh, std::size_t leaf, std::size_t other, std
     height2 = std::min(height2, area2 / faces[k].edge2);
   }
   if (!(cosine2 >= kFlat2)) return 0.0f;
-  // The sine of the angle that is left, by that of a difference of angles.
+  // The sine of the angle by which the patch may still turn, from the sine of a difference of angles.
   const float sine = kSinMost * std::sqrt(cosine2) - kCosMost * std::sqrt(1.0f - cosine2);
   return sine * std::sqrt(height2);
 }

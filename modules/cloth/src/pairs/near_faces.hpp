@@ -10,8 +10,8 @@
 
 namespace bodice::inline v0_1::cloth {
 
-/// The boxes of the triangles of a leaf, and of all of them. Lane k of an array is triangle k; those that the
-/// leaf has not are empty.
+/// The boxes of the triangles of a leaf, and of all of them. Lane k of an array is triangle k; lanes beyond
+/// the leaf's triangles are empty.
 struct LeafBoxes {
   alignas(32) float low[3][kLeaf], high[3][kLeaf];
   float all_low[3], all_high[3];

@@ -15,17 +15,19 @@ namespace bodice::inline v0_1::cloth {
 namespace {
 
 constexpr std::size_t kLeavesATask = 32;
-// One worker ends the groups of so many tasks, which takes about as long as to begin a task of the engine.
+// One engine task ends the groups of this many pair tasks, because that takes about as long as starting an
+// engine task.
 constexpr std::size_t kTasksTogether = 16;
-// Leaves that had no pairs are looked at as if they might move by so many slacks, because what has none keeps
-// apart for long: leaves with boxes that overlap although their triangles are an edge apart.
+// The slack of leaves that had no pairs is multiplied by this. Such leaves mostly stay apart for long,
+// although their boxes overlap: their triangles are an edge apart.
 constexpr float kFartherSlacks = 4.0f;
-// Room for pairs at first, of all tasks and of each, so that few frames need more; unused room costs nothing.
+// Reserved numbers of pairs, for all tasks together and for each, so that few frames allocate; unused memory
+// costs nothing.
 constexpr std::size_t kPairsAtFirst = 65536, kFewPairs = 2048;
-// Leaves are clear if they stay so much farther apart than the gap on their paths, a share of the reach of a
-// search. With less room they would be woken soon.
+// Leaves are clear if their distance on the expected paths exceeds the gap by this share of a search's reach.
+// With less room they would soon need pairs.
 constexpr float kLeastRoom = 0.05f;
-// Pairs out of use that a task keeps besides half as many as are in use.
+// The number of unused pairs that a task keeps, besides half as many as it uses.
 constexpr std::size_t kUnused = 256;
 
 bool has(const Face& f, Index i) {
@@ -38,7 +40,8 @@ struct LeafPair {
   const PairSearch& search;
   float reach_m;
   PairTask& task;
-  float apart_m = std::numeric_limits<float>::max();  // the least distance of triangles without a pair
+  // Lower bound of the distance of the triangles that were tested.
+  float apart_m = std::numeric_limits<float>::max();
 
   // Two edges are not near if their middles are farther apart than half of their lengths and the reach.
   bool are_far(const Corners& c) const {
@@ -89,7 +92,7 @@ float room_between(const SweepTree& tree, std::size_t leaf, std::size_t other) {
   return distance(tree.leaf[leaf], tree.leaf[other]);
 }
 
-// Lists the groups of a task; those that it had keep their pairs.
+// Lists the groups of a task; groups that it had before keep their pairs.
 void list_groups(const ContactMesh& mesh, const SweepTree& tree, float reach_m, float gap_m, PairTask& task) {
   std::swap(task.groups, task.groups_before);
   task.groups.clear(), task.clear.clear(), task.used = 0;
@@ -173,7 +176,7 @@ void find_groups(const engine::Context& context, const ContactMesh& mesh, const 
 void find_pairs(const ContactMesh& mesh, const PairSearch& search, PairGroup& group, PairTask& task) {
   const auto [leaf, other] = group.leaf;
   if (group.joined) {
-    const float flat_m = flat_for(mesh, leaf, other, search.at);
+    const float flat_m = travel_while_flat(mesh, leaf, other, search.at);
     group.folded = !(flat_m > 0.0f);
     group.spared = flat_m > search.step_m && !search.is_folded(group);
     if (group.spared) return clear_pairs(flat_m, group, task);
@@ -219,7 +222,7 @@ void end_groups(const engine::Context& context, std::vector<PairTask>& tasks,
     for (const std::uint32_t leaf : task.folded) folded[leaf] = 1;
 }
 
-void tidy(PairTask& task) {
+void drop_unused_pairs(PairTask& task) {
   if (task.pairs.size() <= kUnused + task.used + task.used / 2) return;
   std::vector<Pair>& pairs = task.spare;
   pairs.clear();
@@ -231,7 +234,7 @@ void tidy(PairTask& task) {
   std::swap(task.pairs, pairs);
 }
 
-void tidy_contacts(PairTask& task) {
+void drop_unused_contacts(PairTask& task) {
   if (task.contacts[0].size() + task.contacts[1].size() <= kUnused + 2 * task.used) return;
   for (auto& contacts : task.contacts) contacts.clear();
   for (PairGroup& group : task.groups) group.fresh = false;

@@ -1,6 +1,6 @@
 // A bounding volume hierarchy over the leaves of a garment. Its boxes also bound how their contents move.
-// What moves alike stays as far apart as it was, however fast, so that few parts of a walking body's garment
-// come near each other.
+// Leaves that move alike stay as far apart as they were, however fast they are. So few parts of a walking
+// body's garment count as near each other.
 // Based on: Christer Ericson. Real-Time Collision Detection. 2005. - sections 5.5.8 (moving boxes),
 // 6.3 (hierarchies); Holger Dammertz, Johannes Hanika, Alexander Keller. Shallow Bounding Volume Hierarchies
 // for Fast SIMD Ray Tracing of Incoherent Rays. 2008. (four children are tested at once)
@@ -17,7 +17,7 @@
 
 namespace bodice::inline v0_1::cloth {
 
-/// A box of points, and the box of their paths, which are straight.
+/// A box of points, and a box of their displacements along straight paths.
 struct Sweep {
   Float4 low, high;            ///< positions at first, meters; the fourth lane is zero
   Float4 move_low, move_high;  ///< displacements, meters
@@ -42,8 +42,8 @@ SweepTree make_sweep_tree(const ContactMesh& mesh);
 /// Particles on their paths; arrays of #P.
 struct SweptPoints {
   std::span<const Point> at;      ///< where the paths begin
-  std::span<const Point> move;    ///< their displacements; empty: all stay
-  std::span<const float> room_m;  ///< how far around its path each may be; empty: nowhere but on it
+  std::span<const Point> move;    ///< their displacements; empty: no particle moves
+  std::span<const float> room_m;  ///< #P: how far each may be from its path; empty: 0
 };
 
 /// The sweep of a leaf's particles.
@@ -70,8 +70,8 @@ inline float distance(const Sweep& a, const Sweep& b) {
 
 /// Which of four sweeps may come near another one, and how near.
 struct NearLanes {
-  unsigned near = 0;  ///< bit k: sweep k comes nearer than the reach along all axes, in doubt
-  Float4 apart2;      ///< squares of how far apart they are on their paths, at least
+  unsigned near = 0;  ///< bit k: sweep k may come nearer than the reach along all axes
+  Float4 apart2;      ///< lower bounds of their squared distances on their paths, square meters
 };
 
 /// A sweep that is tested against four at once.
@@ -105,8 +105,8 @@ class QuadTest {
   SweepQuad own_;  // the sweep in all lanes
 };
 
-/// Calls visit(quad, near) for the quads of leaves that have any near a sweep among those from `first` on, in
-/// order; bit k of `near` is set if lane k is near.
+/// Calls visit(quad, near) for each quad of leaves that has a leaf near a sweep, in order. Quads with leaves
+/// before `first` alone are left out. Bit k of `near` is set if lane k is near.
 template <class Visit>
 void for_each_near_quad(const SweepTree& tree, const Sweep& own, std::size_t first, float reach_m,
                         Visit&& visit) {
@@ -153,9 +153,9 @@ void for_each_near_leaf(const SweepTree& tree, const Sweep& own, float reach_m, 
 /// Leaves that are handled together: few, so that their common box is small.
 inline constexpr std::size_t kLeavesTogether = 8;
 
-/// Calls visit(leaf, other, apart_m) for all leaves of [first, last), at most kLeavesTogether, and all others
-/// from their own on that may be near them, in order of leaf and other; they are at least so far apart on
-/// their paths. Uses `room` for lists.
+/// Calls visit(leaf, other, apart_m) for each leaf of [first, last), at most kLeavesTogether, and each leaf
+/// from it on that may be near it, sorted by both. On their paths they are at least `apart_m` apart. `room`
+/// is scratch.
 template <class Visit>
 void for_each_near_leaf(const SweepTree& tree, std::size_t first, std::size_t last, float reach_m,
                         std::vector<std::uint32_t>& room, Visit&& visit) {

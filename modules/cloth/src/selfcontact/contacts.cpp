@@ -20,19 +20,19 @@ constexpr int kPushes = 2;  // sweeps over the contacts of a substep
 // contact move to and fro then keeps its pairs of leaves for several substeps.
 constexpr float kAhead = 1.5f;
 
-// Parts nearer than this, a tenth of a micrometer, have no normal. Parts that are so at rest are at the same
-// point in a file.
+// Parts nearer than a tenth of a micrometer have no normal. Parts that are as near at rest lie at the same
+// point in the garment's file.
 constexpr float kTouching_m = 1e-7f;
 
-// The least distance to keep, a share of the gap, of parts that are nearer at rest.
+// The least distance to keep, as a share of the gap, for parts that are even nearer at rest.
 constexpr float kLeastOfGap = 0.05f;
 
-// A push moves no particle by more than so many times its own length: where only a far end of an edge can be
-// moved, that would fly off.
+// No particle moves farther than this multiple of a push. Otherwise the far end of an edge would fly off
+// where it alone can move.
 constexpr float kMostLever = 4.0f;
 
-// A particle on the body counts as so many times heavier against another layer. The body undoes its part of
-// the push, and the outer layer would sink into the inner one.
+// A particle on the body counts as this many times heavier against another layer. The body undoes that
+// particle's share of a push, so that with equal masses the outer layer would sink into the inner one.
 constexpr float kTouchingMass = 8.0f;
 
 float gap_of(const ContactSource& source, const Pair& pair) {
@@ -41,7 +41,8 @@ float gap_of(const ContactSource& source, const Pair& pair) {
   return std::clamp(at_rest, kLeastOfGap * source.search.gap_m, source.search.gap_m);
 }
 
-// Looks at the pairs of a group that may be too near once its leaves moved by `step_m` against each other.
+// Makes the contacts of a group's pairs that may be too near once its leaves have moved by `step_m` against
+// each other.
 void refresh_group(const ContactSource& source, float step_m, PairGroup& group, PairTask& task) {
   std::vector<PairContact>& contacts = task.contacts[group.inside];
   group.next_m = group.find_m, group.fresh = true;
@@ -52,7 +53,8 @@ void refresh_group(const ContactSource& source, float step_m, PairGroup& group, 
       const PairContact contact = contact_of(source, pair);
       pair.until_m = pair.gap_m == 0.0f ? kNoPath_m : group.travel_m + contact.apart_m - contact.gap_m;
       if (are_loose(pair.particle, pair.edges, source.loose)) {
-        pair.until_m = std::min(pair.until_m, group.travel_m);  // it is looked at again when it no longer is
+        // It is tested again when it is no longer loose.
+        pair.until_m = std::min(pair.until_m, group.travel_m);
       } else if (pair.until_m < group.travel_m + step_m) {
         pair.contact = static_cast<std::uint32_t>(contacts.size());
         contacts.push_back(contact);
@@ -120,8 +122,8 @@ LeafMove move_of(const ContactMesh& mesh, std::size_t leaf, std::span<const Poin
 PairContact contact_of(const ContactSource& source, Pair& pair) {
   const Closest c = closest(pair.edges, corners_of(pair.particle, source.search.at));
   const float apart_m = std::sqrt(c.length2);
-  if (pair.gap_m == kUnsettled && apart_m < source.search.gap_m) pair.gap_m = gap_of(source, pair);
-  float gap_m = pair.gap_m == kUnsettled ? source.search.gap_m : pair.gap_m;
+  if (pair.gap_m == kGapUnknown && apart_m < source.search.gap_m) pair.gap_m = gap_of(source, pair);
+  float gap_m = pair.gap_m == kGapUnknown ? source.search.gap_m : pair.gap_m;
   if (!(apart_m > kTouching_m)) gap_m = 0.0f;
   PairContact contact{.weight = c.weight,
                       .normal = c.apart / (apart_m + kTouching_m * kTouching_m),
@@ -133,7 +135,7 @@ PairContact contact_of(const ContactSource& source, Pair& pair) {
   return contact;
 }
 
-void keep_pairs(const ContactSource& source, float step_m, PairGroup& group, PairTask& task) {
+void update_pairs(const ContactSource& source, float step_m, PairGroup& group, PairTask& task) {
   const bool kept = !(group.travel_m + step_m > group.find_m);
   if (kept && !(group.spared && source.search.is_folded(group))) return;
   PairSearch search = source.search;
@@ -153,26 +155,26 @@ void refresh_contacts(const engine::Context& context, const ContactSource& sourc
   engine::parallel_for(context, tasks.size(), 1, [&](std::size_t t, std::size_t) {
     PairTask& task = tasks[t];
     for (auto& contacts : task.contacts) contacts.clear();
-    tidy(task);
+    drop_unused_pairs(task);
     wake_groups(source.mesh, source.off_m, task);
     for (PairGroup& group : task.groups) {
       const float step_m = source.step_of(group);
       group.fresh = false;
-      keep_pairs(source, step_m, group, task);
+      update_pairs(source, step_m, group, task);
       if (!(group.next_m > group.travel_m + step_m)) refresh_group(source, step_m, group, task);
     }
   });
 }
 
-bool push_held(const PairPush& how, const std::vector<PairTask>& tasks, std::span<Point> at) {
+bool push_crossing_pairs(const PairPush& how, const std::vector<PairTask>& tasks, std::span<Point> at) {
   bool any_pushed = false;
   for (const PairTask& task : tasks)
     for (const PairContact& c : task.held) any_pushed = push_pair(c, how, at) || any_pushed;
   return any_pushed;
 }
 
-void push_contacts(const engine::Context& context, const ContactMesh& mesh, const PairPush& how,
-                   const std::vector<PairTask>& tasks, std::span<Point> at) {
+void push_pairs_apart(const engine::Context& context, const ContactMesh& mesh, const PairPush& how,
+                      const std::vector<PairTask>& tasks, std::span<Point> at) {
   for (int sweep = 0; sweep < kPushes; ++sweep) {
     std::atomic<bool> pushed{false};
     const auto push_all = [&](const PairTask& task, bool inside) {

@@ -11,10 +11,11 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-// Share of a substep's velocity in the one that is expected: sweeps leave some tremble, which averages out.
+// The weight of a substep's velocity in the smoothed velocity. Sweeps leave particles trembling, which
+// averages out.
 constexpr float kSmoothing = 0.25f;
-// The square of the speed below which a drift is zero, square meters a square second. The drift of cloth at
-// rest halves with every few substeps, and floats that have become subnormal take a hundred times as long.
+// The squared speed below which a smoothed velocity becomes zero, square meters a square second. At rest it
+// halves every few substeps, and arithmetic with subnormal floats takes a hundred times as long.
 constexpr float kNoDrift2 = 1e-20f;
 
 }  // namespace
@@ -22,8 +23,8 @@ constexpr float kNoDrift2 = 1e-20f;
 Expectation::Expectation(float since_s, float most, const SelfContact& s)
     : self(s), share(std::min(1.0f, since_s / s.ahead_s)), most_m(most) {}
 
-bool strays(const engine::Context& context, std::span<const Point> at, float since_s, float most_m,
-            SelfContact& s) {
+bool measure_deviations(const engine::Context& context, std::span<const Point> at, float since_s,
+                        float most_m, SelfContact& s) {
   const Expectation expected(since_s, most_m, s);
   std::atomic<bool> far{false};
   engine::parallel_for(context, s.found.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
@@ -37,8 +38,8 @@ bool strays(const engine::Context& context, std::span<const Point> at, float sin
   return far.load();
 }
 
-bool any_strays(std::span<const std::uint32_t> leaves, std::span<const Point> at, float since_s, float most_m,
-                SelfContact& s) {
+bool measure_deviations_of(std::span<const std::uint32_t> leaves, std::span<const Point> at, float since_s,
+                           float most_m, SelfContact& s) {
   const Expectation expected(since_s, most_m, s);
   bool any_far = false;
   for (const std::uint32_t leaf : leaves)
@@ -49,14 +50,14 @@ bool any_strays(std::span<const std::uint32_t> leaves, std::span<const Point> at
   return any_far;
 }
 
-float off_of(std::size_t leaf, const SelfContact& s) {
+float largest_deviation(std::size_t leaf, const SelfContact& s) {
   float off2 = 0.0f;
   for (const Index i : s.mesh.particles_of(leaf)) off2 = std::max(off2, s.off2[i]);
   return std::sqrt(off2);
 }
 
-void look_ahead(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,
-                float most_m, SelfContact& s) {
+void expect_paths(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,
+                  float most_m, SelfContact& s) {
   s.ahead_s = std::max(substep.length_s, substep.frame_s), s.since_s = 0.0f;
   const float share = substep.length_s / s.ahead_s;
   engine::parallel_for(context, s.found.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
@@ -70,8 +71,8 @@ void look_ahead(const engine::Context& context, const SelfSubstep& substep, std:
   });
 }
 
-void foresee(const engine::Context& context, const SelfSubstep& substep, float most_m, const Particles& p,
-             SelfContact& s) {
+void expect_contact_positions(const engine::Context& context, const SelfSubstep& substep, float most_m,
+                              const Particles& p, SelfContact& s) {
   engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       s.now[i] = p.point[i];
@@ -84,7 +85,7 @@ void foresee(const engine::Context& context, const SelfSubstep& substep, float m
   });
 }
 
-void follow_drift(const engine::Context& context, float substep_s, SelfContact& s) {
+void update_drift(const engine::Context& context, float substep_s, SelfContact& s) {
   engine::parallel_for(context, s.drift.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Float4 drift = load(s.drift[i]), now = (load(s.now[i]) - load(s.before[i])) / substep_s;

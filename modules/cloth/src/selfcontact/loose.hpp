@@ -1,6 +1,6 @@
-// Which particles layers may pass. Where the body left no room, or where the simulation began crossed, layers
-// are on each other's wrong side, and contact would keep them there. So the corners of triangles that cross
-// are loose: contact does not act between them.
+// Particles that other layers may pass. Where the body left no room, or where cloth crossed at the start,
+// layers are on the wrong side of each other, and contact would keep them there. So the corners of triangles
+// that cross are loose: contact does not act between loose particles.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ struct Loose {
 
 Loose make_loose(std::size_t particles);
 
-/// Loosens the corners of all triangles that cross, and no other particles. With the corners' neighbors, more
-/// layers crossed near a tangle than it had to begin with.
+/// Makes the corners of all tangles loose, and no other particle. When the corners' neighbors were loose as
+/// well, tangles grew.
 void loosen(const ContactMesh& mesh, std::span<const Tangle> tangles, Loose& loose);
 
 /// Whether both parts of a pair have loose particles.

@@ -14,13 +14,15 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-// The gap is at most this share of the median edge: with a larger one, smooth cloth would consist of pairs.
+// The largest gap, as a share of the median edge. With a larger one, neighboring parts of smooth cloth would
+// all be pairs.
 constexpr double kMostOfEdge = 0.25;
-// The least gap, of the median edge, for a thickness of zero: floats need some room to distinguish sides.
+// The least gap, as a share of the median edge, for cloth without thickness. Floats need some room to
+// distinguish sides.
 constexpr double kLeastOfEdge = 0.002;
-// Shares of the median edge: kSlackOfEdge is the relative motion of two leaves after which their pairs are
-// found anew, and kSpareOfEdge the unexpected approach of two particles after which leaves are. Larger shares
-// mean longer lists, smaller ones more searches.
+// Shares of the median edge. After a relative motion of kSlackOfEdge, the pairs of two leaves are found anew.
+// After an unexpected approach of kSpareOfEdge, the groups of leaves are listed anew. Larger shares mean
+// longer lists, smaller ones more searches.
 constexpr double kSlackOfEdge = 0.2, kSpareOfEdge = 1.0;
 
 // The speed at which layers that begin too close move apart: a fold's width in a few frames.
@@ -28,61 +30,62 @@ constexpr float kRecovery_m_s = 0.1f;
 // The speed at which triangles that cross are drawn apart.
 constexpr float kUntangle_m_s = 1.0f;
 
-// Shares of the spare distance that particles may use before and after contacts moved them; two of them may
-// use both halves against each other.
+// The deviations, as shares of the spare distance, that particles may have before and after contacts moved
+// them. Two particles may use one half each against each other.
 constexpr float kUsedBefore = 0.4f, kUsedAfter = 0.499f;
-// The largest shares that particles on the body are expected to use. A body that moves brings layers
-// together, and with a smaller share they would not meet in time.
+// The largest deviations, in spare distances, that are expected of particles on the body. A moving body
+// brings layers together, and with a smaller value their pairs would be found too late.
 constexpr float kUsedStill = 0.2f, kUsedMoving = 1.0f;
 
-// The largest share of its allowed deviation that a particle uses when a search begins.
+// The largest share of its allowed deviation that a particle may have used right after a search.
 constexpr float kOnPath = 0.9f;
 
 // Pairs that would cross are pushed apart in at most kHeldRounds rounds of kHeldSweeps sweeps each.
 constexpr int kHeldRounds = 6, kHeldSweeps = 4;
-// After kFirmRounds rounds of zones, pairs may cross that the body presses from both sides, or that lie
-// within one zone. After kMostRounds all particles move together.
+// After kFirmRounds rounds of zones, a pair may cross if the body presses it from both sides or if it lies
+// within one zone. After kMostRounds rounds all particles move together.
 constexpr int kFirmRounds = 4, kMostRounds = 16;
-// The number of times that particles which sink into the body are guarded against it, before layers may
-// cross.
+// The number of times that guards are set for particles which sink into the body, before layers may cross.
 constexpr int kGuardings = 4;
 
-// The share of the thickness that particles keep from the body where layers would cross otherwise. With a
-// fifth more skin shows between coarse triangles, with a half more layers cross.
+// The share of the thickness that particles keep from the body where layers would otherwise cross. With a
+// share of 0.2, more skin shows between coarse triangles; with 0.5, more layers cross.
 constexpr float kYieldedShare = 0.3f;
 
 constexpr std::size_t kMovesATask = 256;
 
-// All groups are listed anew in a frame that begins with more than so many of strayed particles a leaf.
+// All groups are listed anew in a frame that begins with more than this many groups of strayed particles for
+// each leaf.
 constexpr std::size_t kMostListedALeaf = 1;
 
-// After so many substeps of a frame in which layers crossed all the same, cloth is crushed. In the rest of
-// the frame it yields no more, because that parts nothing and takes a quarter of the time.
+// If layers cross in this many substeps of a frame although cloth came nearer to the body, the cloth is
+// crushed. For the rest of the frame it keeps its thickness, because coming nearer separates nothing and
+// takes a quarter of the time.
 constexpr int kFailedYields = 2;
 
-// Lists the groups of particles on the paths that are expected.
+// Lists the groups on the expected paths, and the triangles that cross where these are not known.
 void search(const engine::Context& context, SelfContact& s) {
   refit(context, s.mesh, {s.found, s.ahead, {}}, s.tree);
-  if (!s.sided) {
+  if (!s.crossings_known) {
     find_tangles(context, s.mesh, s.tree, s.found, s.tasks, s.tangles);
     loosen(s.mesh, s.tangles, s.loose);
   }
-  s.searched = s.swept = s.sided = true;
+  s.searched = s.tree_has_sweeps = s.crossings_known = true;
   find_groups(context, s.mesh, s.tree, s.gap_m + s.spare_m, s.gap_m, s.tasks);
   s.moved_leaves.indexed = false;
   s.strayed.listed = 0;
   ++s.report.searches;
 }
 
-// Searches unless the groups of the last search still do for particles at `at`.
-void keep_groups(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,
-                 float used, SelfContact& s) {
+// Lists groups anew where those of the last search do not cover particles at `at`.
+void update_groups(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,
+                   float used, SelfContact& s) {
   const float most_m = used * s.spare_m, since_s = s.since_s + substep.length_s;
-  if (s.searched && !strays(context, at, since_s, most_m, s)) return;
-  if (s.searched && list_strayed(since_s, most_m, s)) return;
-  look_ahead(context, substep, at, kOnPath * most_m, s);
+  if (s.searched && !measure_deviations(context, at, since_s, most_m, s)) return;
+  if (s.searched && list_groups_of_strayed(since_s, most_m, s)) return;
+  expect_paths(context, substep, at, kOnPath * most_m, s);
   search(context, s);
-  strays(context, at, substep.length_s, most_m, s);
+  measure_deviations(context, at, substep.length_s, most_m, s);
 }
 
 ContactSource source_of(const SelfContact& s) {
@@ -91,7 +94,7 @@ ContactSource source_of(const SelfContact& s) {
 
 void find_move(std::size_t leaf, SelfContact& s) {
   s.moves[leaf] = move_of(s.mesh, leaf, s.before, s.now);
-  s.off_m[leaf] = off_of(leaf, s);
+  s.off_m[leaf] = largest_deviation(leaf, s);
 }
 
 void find_moves(const engine::Context& context, SelfContact& s) {
@@ -110,20 +113,20 @@ PairPush push_of(const SelfSubstep& substep, const SelfContact& s) {
   return {substep.friction, kRecovery_m_s * substep.length_s, s.before, substep.touching, {}, {}};
 }
 
-// The number of pairs that would cross before the particles are at `now`.
+// The number of pairs that would cross on the particles' paths to `now`.
 std::size_t count_crossing(const engine::Context& context, const SelfSubstep& substep, Room room,
                            SelfContact& s) {
-  keep_groups(context, substep, s.now, kUsedAfter, s);
+  update_groups(context, substep, s.now, kUsedAfter, s);
   find_moves(context, s);
   forget_moved(s.moved_leaves);
   return find_crossing(context, source_of(s), {s.now, s.zones.guard, s.zones.parent, room}, s.tasks);
 }
 
-// The same where none crossed but those of leaves that moved since.
+// The same, where only pairs of leaves that moved since the last count can have changed.
 std::size_t count_crossing_again(const engine::Context& context, const SelfSubstep& substep, Room room,
                                  SelfContact& s) {
   const float since_s = s.since_s + substep.length_s;
-  if (any_strays(s.moved_leaves.leaves, s.now, since_s, kUsedAfter * s.spare_m, s))
+  if (measure_deviations_of(s.moved_leaves.leaves, s.now, since_s, kUsedAfter * s.spare_m, s))
     return count_crossing(context, substep, room, s);
   for (const std::uint32_t leaf : s.moved_leaves.leaves) find_move(leaf, s);
   const std::size_t count = find_crossing_again(
@@ -132,21 +135,22 @@ std::size_t count_crossing_again(const engine::Context& context, const SelfSubst
   return count;
 }
 
-// Pushes the pairs that would cross apart until none would; returns whether that succeeded.
-bool part_pairs(const engine::Context& context, const SelfSubstep& substep, SelfContact& s) {
+// Pushes apart the pairs that would cross, until none would; returns whether that succeeded.
+bool separate_pairs(const engine::Context& context, const SelfSubstep& substep, SelfContact& s) {
   const PairPush how = {0.0f, 0.0f, s.before, substep.touching, s.zones.resolved, s.zones.guard};
   for (int round = 0; round < kHeldRounds; ++round) {
     for (const PairTask& task : s.tasks)
       for (const PairContact& c : task.held) note_moved(s.mesh, c.particle, s.moved_leaves);
     for (int sweep = 0; sweep < kHeldSweeps; ++sweep)
-      if (!push_held(how, s.tasks, s.now)) break;
+      if (!push_crossing_pairs(how, s.tasks, s.now)) break;
     if (count_crossing_again(context, substep, Room::kAmple, s) == 0) return true;
   }
   return false;
 }
 
-// Moves the particles of pairs that would cross in zones until none would.
-void zone(const engine::Context& context, const SelfSubstep& substep, const Particles& p, SelfContact& s) {
+// Moves the particles of pairs that would cross together, in zones, until no pair would.
+void move_in_zones(const engine::Context& context, const SelfSubstep& substep, const Particles& p,
+                   SelfContact& s) {
   for (int round = 0; round <= kMostRounds; ++round) {
     if (round < kMostRounds)
       join_zones(s.tasks, p, s.before, s.now, s.zones);
@@ -164,9 +168,9 @@ bool any_pressed(const SelfContact& s) {
   return std::ranges::any_of(s.tasks, [](const PairTask& task) { return !task.pressed.empty(); });
 }
 
-// Guards the particles that sank into the body since contact with it was resolved; returns whether there are
-// any.
-bool guard_moved(const engine::Context& context, const ResolvedBody& body, SelfContact& s) {
+// Sets guards for particles that sank into the body since contact with it was resolved; returns whether there
+// are any.
+bool guard_moved_particles(const engine::Context& context, const ResolvedBody& body, SelfContact& s) {
   s.moved.clear();
   for (Index i = 0; i < s.now.size(); ++i) {
     const Float4 by = load(s.now[i]) - load(s.zones.resolved[i]);
@@ -175,16 +179,16 @@ bool guard_moved(const engine::Context& context, const ResolvedBody& body, SelfC
   return guard_sunk(context, body, s.moved, s.zones.resolved, s.now, s.zones.guard);
 }
 
-// Parts the pairs that were found to cross, and moves no particle nearer to the body than `body.least_m`;
-// returns whether that succeeded. Particles that sank are kept in front of their guards. Those that sink all
-// the same are put back, because contact with the body is resolved last.
-bool part_all(const engine::Context& context, const SelfSubstep& substep, const ResolvedBody& body,
-              const Particles& p, SelfContact& s) {
+// Separates the pairs that would cross, and moves no particle nearer to the body than `body.least_m`. Returns
+// whether that succeeded. Particles that sank are kept in front of their guards. Particles that still sink
+// are put back, because contact with the body has priority.
+bool separate_all(const engine::Context& context, const SelfSubstep& substep, const ResolvedBody& body,
+                  const Particles& p, SelfContact& s) {
   std::ranges::fill(s.zones.guard, Guard{});
   bool crossing = true;
   for (int round = 0; round <= kGuardings; ++round) {
-    if (crossing && !part_pairs(context, substep, s)) zone(context, substep, p, s);
-    if (!guard_moved(context, body, s)) return !any_pressed(s);
+    if (crossing && !separate_pairs(context, substep, s)) move_in_zones(context, substep, p, s);
+    if (!guard_moved_particles(context, body, s)) return !any_pressed(s);
     for (const Index i : s.moved)
       store(s.now[i], guarded(load(s.now[i]), s.zones.resolved[i], s.zones.guard[i]));
     note_moved(s.mesh, s.moved, s.moved_leaves);
@@ -198,22 +202,22 @@ bool part_all(const engine::Context& context, const SelfSubstep& substep, const 
   return !any_pressed(s);
 }
 
-// Lets nothing cross. Where the body leaves no room, cloth comes nearer to it than its thickness; where that
-// does not help, layers cross.
-void part(const engine::Context& context, const SelfSubstep& substep, ResolvedBody body, const Particles& p,
-          SelfContact& s) {
+// Separates pairs that would cross. Where the body leaves no room, cloth comes nearer to it than its
+// thickness. Where that does not help, layers cross.
+void separate(const engine::Context& context, const SelfSubstep& substep, ResolvedBody body,
+              const Particles& p, SelfContact& s) {
   std::ranges::copy(s.now, s.zones.resolved.begin());
   body.least_m = body.thickness_m;
-  if (part_all(context, substep, body, p, s) || s.failed_yields >= kFailedYields) return;
+  if (separate_all(context, substep, body, p, s) || s.failed_yields >= kFailedYields) return;
   std::ranges::copy(s.zones.resolved, s.now.begin());
   count_crossing(context, substep, Room::kAmple, s);
   body.least_m = kYieldedShare * body.thickness_m;
-  if (!part_all(context, substep, body, p, s)) ++s.failed_yields;
+  if (!separate_all(context, substep, body, p, s)) ++s.failed_yields;
 }
 
 // Copies the points that moved to the particles' positions, and adds the displacement over the substep to
 // their velocities.
-void take_points(float substep_s, std::span<const Point> at, Particles& p) {
+void copy_moved_points(float substep_s, std::span<const Point> at, Particles& p) {
   for (std::size_t i = 0; i < p.count(); ++i) {
     const float dx = at[i].x - p.x[i], dy = at[i].y - p.y[i], dz = at[i].z - p.z[i];
     if (dx == 0.0f && dy == 0.0f && dz == 0.0f) continue;
@@ -254,14 +258,14 @@ void begin_self_contact(const engine::Context& context, const Particles& p, Self
   s.report = {};
   s.failed_yields = 0;
   if (s.origin != p.origin) forget_pairs(s);
-  // Groups of particles that strayed once would be kept for as long as none strays again.
+  // Without this, groups that were added for a strayed particle would stay listed until the next search.
   if (s.strayed.listed > kMostListedALeaf * s.mesh.leaves()) s.searched = false;
   s.origin = p.origin;
   copy_points(context, p, s.before);
   if (s.tangles.empty()) return;
-  // Loose particles may have passed many triangles of others since the frame before.
+  // Loose particles may have passed many triangles of other layers since the last frame.
   refit(context, s.mesh, {.at = s.before}, s.tree);
-  s.swept = false;
+  s.tree_has_sweeps = false;
   find_tangles(context, s.mesh, s.tree, s.before, s.tasks, s.tangles);
   loosen(s.mesh, s.tangles, s.loose);
 }
@@ -274,11 +278,12 @@ SelfContactReport report_self_contact(const SelfContact& s) {
 }
 
 void push_apart(const engine::Context& context, const SelfSubstep& substep, SelfContact& s, Particles& p) {
-  foresee(context, substep, (substep.still_body ? kUsedStill : kUsedMoving) * s.spare_m, p, s);
-  keep_groups(context, substep, s.now, kUsedBefore, s);
+  expect_contact_positions(context, substep, (substep.still_body ? kUsedStill : kUsedMoving) * s.spare_m, p,
+                           s);
+  update_groups(context, substep, s.now, kUsedBefore, s);
   find_moves(context, s);
   refresh_contacts(context, source_of(s), s.tasks);
-  push_contacts(context, s.mesh, push_of(substep, s), s.tasks, p.point);
+  push_pairs_apart(context, s.mesh, push_of(substep, s), s.tasks, p.point);
   untangle(s.mesh, s.tangles, {substep.touching, s.loose.list, kUntangle_m_s * substep.length_s}, s.now,
            p.point);
 }
@@ -287,13 +292,13 @@ void hold_apart(const engine::Context& context, const SelfSubstep& substep, cons
                 SelfContact& s, Particles& p) {
   copy_points(context, p, s.now);
   if (count_crossing(context, substep, Room::kAmple, s) > 0) {
-    part(context, substep, body, p, s);
-    take_points(substep.length_s, s.now, p);
+    separate(context, substep, body, p, s);
+    copy_moved_points(substep.length_s, s.now, p);
   }
   if (add_pressed(s.mesh, s.tasks, s.now, s.tangles)) loosen(s.mesh, s.tangles, s.loose);
   end_groups(context, s.tasks, s.folded);
   s.since_s += substep.length_s;
-  follow_drift(context, substep.length_s, s);
+  update_drift(context, substep.length_s, s);
   std::swap(s.before, s.now);
 }
 

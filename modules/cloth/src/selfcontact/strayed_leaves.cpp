@@ -10,16 +10,17 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-// All groups are searched anew where more than one particle of so many strayed.
+// All groups are searched anew where more than one particle in this many strayed.
 constexpr std::size_t kFewStrayed = 200;
-// The most spare distances that a particle may be beyond what all are allowed. Farther away, a path from
-// where it is now needs fewer groups.
+// The largest allowance of one particle, in spare distances. Beyond it, a search with a path from its present
+// position gives fewer groups.
 constexpr float kMostBeyond = 4.0f;
-// Groups for which there is room at first, a leaf.
+// The number of groups for which memory is reserved, for each leaf.
 constexpr std::size_t kWantedALeaf = 2;
 
 // Lists the particles that strayed; returns whether these are few.
-bool find_strayed(const Expectation& expected, std::span<const float> off2, std::vector<Index>& particles) {
+bool list_strayed_particles(const Expectation& expected, std::span<const float> off2,
+                            std::vector<Index>& particles) {
   particles.clear();
   for (Index i = 0; i < off2.size(); ++i) {
     if (expected.allows(off2[i], i)) continue;
@@ -44,8 +45,9 @@ bool is_listed(const PairTask& task, std::pair<std::uint32_t, std::uint32_t> lea
          std::ranges::binary_search(task.clear, leaves, {}, by_leaves);
 }
 
-// Lists the groups that the strayed leaves have not, by task, leaf and other leaf.
-void find_wanted(const SweepTree& tree, float reach_m, const std::vector<PairTask>& tasks, StrayedLeaves& s) {
+// Lists the groups that the strayed leaves lack, sorted by task, leaf and other leaf.
+void list_missing_groups(const SweepTree& tree, float reach_m, const std::vector<PairTask>& tasks,
+                         StrayedLeaves& s) {
   s.wanted.clear();
   for (const std::uint32_t own : s.leaves)
     for_each_near_leaf(tree, tree.leaf[own], reach_m, [&](std::size_t near) {
@@ -60,9 +62,10 @@ void find_wanted(const SweepTree& tree, float reach_m, const std::vector<PairTas
   s.wanted.erase(repeated.begin(), repeated.end());
 }
 
-// Adds groups to a task, in the order of all. Their distances are those when the substep began.
-void add_wanted(std::span<const WantedGroup> wanted, const SelfContact& s, std::vector<PairGroup>& room,
-                PairTask& task) {
+// Adds the missing groups to a task, whose groups stay sorted. Their distances are those when the substep
+// began.
+void add_missing_groups(std::span<const WantedGroup> wanted, const SelfContact& s,
+                        std::vector<PairGroup>& room, PairTask& task) {
   room.clear();
   for (const WantedGroup& w : wanted) {
     const float apart_m =
@@ -83,11 +86,11 @@ StrayedLeaves make_strayed_leaves(std::size_t particles, const ContactMesh& mesh
   return s;
 }
 
-bool list_strayed(float since_s, float most_m, SelfContact& self) {
+bool list_groups_of_strayed(float since_s, float most_m, SelfContact& self) {
   StrayedLeaves& s = self.strayed;
   const Expectation expected(since_s, most_m, self);
-  if (!self.swept || !find_strayed(expected, self.off2, s.particles)) return false;
-  // They may soon be as far again, so that each is allowed whole spare distances.
+  if (!self.tree_has_sweeps || !list_strayed_particles(expected, self.off2, s.particles)) return false;
+  // Allowances are whole spare distances, because a particle that strayed may soon stray a little farther.
   for (const Index i : s.particles) {
     const float beyond_m = std::sqrt(self.off2[i]) - most_m;
     if (!(beyond_m <= kMostBeyond * self.spare_m)) return false;
@@ -96,11 +99,11 @@ bool list_strayed(float since_s, float most_m, SelfContact& self) {
   find_leaves(self.mesh, s);
   const SweptPoints points{self.found, self.ahead, self.beyond_m};
   for (const std::uint32_t leaf : s.leaves) refit_leaf(self.mesh, leaf, points, self.tree);
-  find_wanted(self.tree, self.gap_m + self.spare_m, self.tasks, s);
+  list_missing_groups(self.tree, self.gap_m + self.spare_m, self.tasks, s);
   for (auto first = s.wanted.begin(); first != s.wanted.end();) {
     const auto last =
         std::find_if(first, s.wanted.end(), [&](const WantedGroup& w) { return w.task != first->task; });
-    add_wanted({first, last}, self, s.groups, self.tasks[first->task]);
+    add_missing_groups({first, last}, self, s.groups, self.tasks[first->task]);
     first = last;
   }
   if (!s.wanted.empty()) self.moved_leaves.indexed = false;

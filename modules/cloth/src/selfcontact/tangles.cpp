@@ -11,7 +11,8 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-// Where an edge nearly lies in the plane of a triangle, the gradient is taken as at this sine.
+// The least sine of the angle between an edge and a triangle's plane that the gradient uses. With a smaller
+// one it would be too long.
 constexpr float kLeastSine = 0.2f;
 
 Float4 at_particle(std::span<const Point> at, Index i) {
@@ -40,8 +41,7 @@ bool contains(const Face& f, Index i) {
   return f.particle[0] == i || f.particle[1] == i || f.particle[2] == i;
 }
 
-// Calls visit(k, passage) for each edge k of `of` that passes through `face`, those with common particles
-// excepted.
+// Calls visit(k, passage) for each edge k of `of` that passes through `face` and shares no particle with it.
 template <class Visit>
 void for_each_passage(const Face& of, const Face& face, std::span<const Point> at, Visit&& visit) {
   for (unsigned k = 0; k < 3; ++k) {
@@ -60,9 +60,10 @@ bool cross_each_other(const Face& a, const Face& b, std::span<const Point> at) {
   return found;
 }
 
-// Moves the edge k of `of` along the line of crossing into `of`, as seen from the triangle that it passes.
-void pull_through(const Face& of, unsigned k, const Face& face, const Passage& passage, float step_m,
-                  std::span<Point> at) {
+// Moves edge k of `of`, and the triangle `face` that it passes through against it, so that the line along
+// which the two triangles cross becomes shorter.
+void shorten_crossing(const Face& of, unsigned k, const Face& face, const Passage& passage, float step_m,
+                      std::span<Point> at) {
   const Index p = of.particle[k], q = of.particle[(k + 1) % 3];
   const Float4 from = at_particle(at, p), a = at_particle(at, face.particle[0]);
   const Float4 edge = unit(at_particle(at, q) - from),
@@ -89,8 +90,8 @@ void pull_through(const Face& of, unsigned k, const Face& face, const Passage& p
   }
 }
 
-// Bounds how far a point went.
-void shorten(float most_m, const Point& from, Point& to) {
+// Limits the displacement of a point to `most_m`.
+void limit_displacement(float most_m, const Point& from, Point& to) {
   const Float4 by = xyz(load(to) - load(from));
   const float far_m = std::sqrt(dot(by, by));
   if (far_m > most_m) store(to, load(to) - (1.0f - most_m / far_m) * by);
@@ -150,11 +151,11 @@ void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles, const
     const Face &a = mesh.faces[t.a], &b = mesh.faces[t.b];
     if (lies_on_body(a, how.touching) && lies_on_body(b, how.touching)) continue;
     for_each_passage(a, b, at,
-                     [&](unsigned k, const Passage& p) { pull_through(a, k, b, p, how.step_m, at); });
+                     [&](unsigned k, const Passage& p) { shorten_crossing(a, k, b, p, how.step_m, at); });
     for_each_passage(b, a, at,
-                     [&](unsigned k, const Passage& p) { pull_through(b, k, a, p, how.step_m, at); });
+                     [&](unsigned k, const Passage& p) { shorten_crossing(b, k, a, p, how.step_m, at); });
   }
-  for (const Index i : how.movable) shorten(how.step_m, room[i], at[i]);
+  for (const Index i : how.movable) limit_displacement(how.step_m, room[i], at[i]);
 }
 
 }  // namespace bodice::cloth

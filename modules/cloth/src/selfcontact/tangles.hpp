@@ -1,6 +1,7 @@
-// Triangles that cross when the simulation begins, or because the body pressed them together, and how they
-// come apart. Contact leaves them alone (loose.hpp); where an edge passes through a triangle, the two are
-// moved so that the line along which the surfaces cross becomes shorter, until it is gone.
+// Finds triangles that cross, and draws them apart. They cross when the simulation begins, or because the
+// body pressed them together, and contact does not act between them (loose.hpp). Where an edge passes through
+// a triangle, both are moved so that the line along which the surfaces cross becomes shorter, until it is
+// gone.
 // Based on: Pascal Volino, Nadia Magnenat-Thalmann. Resolving Surface Collisions through Intersection Contour
 // Minimization. 2006. - section 3
 // Differs: the gradient is that of the triangles' own piece of the line, without its neighbors'. No particle
@@ -17,8 +18,8 @@ namespace bodice::inline v0_1::cloth {
 void find_tangles(const engine::Context& context, const ContactMesh& mesh, const SweepTree& tree,
                   std::span<const Point> at, std::vector<PairTask>& tasks, std::vector<Tangle>& tangles);
 
-/// Adds the triangles that cross at positions `at` of the pairs that the tasks list as pressed; returns
-/// whether there are any.
+/// Adds the tangles at positions `at` around the pairs that the tasks list as pressed; returns whether there
+/// are any.
 bool add_pressed(const ContactMesh& mesh, const std::vector<PairTask>& tasks, std::span<const Point> at,
                  std::vector<Tangle>& tangles);
 
@@ -29,9 +30,9 @@ struct Untangling {
   float step_m = 0.0f;                     ///< how far each triangle is moved, and a particle at most
 };
 
-/// Moves the triangles of all tangles that still cross. Two that lie on the body stay where it has them. A
-/// particle with many tangles moves no farther than one with a single one: together they would tear the
-/// cloth. Uses `room` (#P).
+/// Moves the triangles of all tangles that still cross. Two triangles that both lie on the body stay where
+/// they are. A particle in many tangles moves no farther than `how.step_m`, because the sum of their steps
+/// would tear the cloth. `room` (#P) is scratch.
 void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles, const Untangling& how,
               std::span<Point> room, std::span<Point> at);
 

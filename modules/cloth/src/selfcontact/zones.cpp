@@ -11,26 +11,27 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-// What remains of a pair's distance after a substep at least: this share of it, or of its gap.
+// The least distance that a pair may have after a substep: this share of its distance before, or of its gap,
+// whichever is less.
 constexpr float kKept = 0.2f, kKeptOfGap = 0.02f;
 // Parts that the body presses together for many substeps come no nearer than kNear_m; parts that are nearer
-// keep this share of their distance. kNear_m is a hundred roundings of a position, so that the normal is
-// still right. Parts nearer than kTouching_m have no normal, and contact could not hold them apart.
+// keep this share of their distance. kNear_m is a hundred times the rounding of a position, so that normals
+// are still right. Contact cannot hold parts apart without a normal, as those nearer than kTouching_m.
 constexpr float kNear_m = 5e-6f, kKeptOfNear = 0.9f;
 
-// The distance that pairs which would cross are pushed apart to, a share of their gap.
+// The distance to which pairs that would cross are pushed apart, as a share of their gap.
 constexpr float kHeldOfGap = 0.1f;
 
 // Sweeps over the guarded particles of zones.
 constexpr int kLifts = 3;
 
-// One worker looks at so many tasks again, of which few groups moved.
+// The number of pair tasks that one engine task tests again, because few of their groups moved.
 constexpr std::size_t kTasksAgain = 4;
 
-// A zone with a pin moves as the pin, up to the rounding of floats.
-constexpr float kPinOfZone = 1e7f;
+// The factor on a pin's mass in the mean displacement of a zone, which then moves as the pin, up to rounding.
+constexpr float kPinnedMassInZone = 1e7f;
 
-// The root of a particle's zone, or a particle without one.
+// The root of a particle's zone; for a particle without a zone, the particle.
 Index zone_of(Index i, std::span<const Index> zone) {
   while (zone[i] != i && zone[i] != geometry::kNoIndex) i = zone[i];
   return i;
@@ -41,8 +42,9 @@ bool are_of_one_zone(const Index (&particle)[4], std::span<const Index> zone) {
   return std::ranges::all_of(particle, [&](Index i) { return zone_of(i, zone) == first; });
 }
 
-// Whether a pair must not cross. A part is backed by a pin or by the body behind it.
-bool can_be_parted(const PairContact& c, const CrossingSearch& how) {
+// Whether a pair can be separated, so that it must not cross. Both of its parts are `backed` where pins or
+// the body leave neither room to move.
+bool can_be_separated(const PairContact& c, const CrossingSearch& how) {
   if (how.room == Room::kAmple)
     return std::ranges::any_of(c.particle, [&](Index i) { return how.now[i].weight > 0.0f; });
   if (are_of_one_zone(c.particle, how.zone)) return false;
@@ -56,13 +58,13 @@ bool can_be_parted(const PairContact& c, const CrossingSearch& how) {
   return !(backed[0] && backed[1]);
 }
 
-float least_of(const PairContact& c) {
+float least_distance(const PairContact& c) {
   return std::max(std::min(kKept * c.apart_m, kKeptOfGap * c.gap_m),
                   std::min(kKeptOfNear * c.apart_m, kNear_m));
 }
 
 bool would_cross(const PairContact& c, const ContactSource& source, std::span<const Point> now) {
-  const float least_m = least_of(c);
+  const float least_m = least_distance(c);
   const Corners to = corners_of(c.particle, now);
   if (separation(c.edges, to, c.normal) > least_m) return false;
   const Corners from = corners_of(c.particle, source.search.at);
@@ -71,7 +73,7 @@ bool would_cross(const PairContact& c, const ContactSource& source, std::span<co
   return may_meet(c.edges, from, by, least_m);
 }
 
-// The contact of a pair when the substep began, which is found once.
+// The contact of a pair when the substep began, which is computed at the first call.
 const PairContact& known_contact(const ContactSource& source, const PairGroup& group, Pair& pair,
                                  PairTask& task) {
   std::vector<PairContact>& contacts = task.contacts[group.inside];
@@ -85,7 +87,7 @@ const PairContact& known_contact(const ContactSource& source, const PairGroup& g
 void find_crossing_in(const ContactSource& source, const CrossingSearch& how, PairGroup& group,
                       PairTask& task) {
   const float step_m = group.step_m = source.step_of(group);
-  keep_pairs(source, step_m, group, task);
+  update_pairs(source, step_m, group, task);
   if (group.next_m > group.travel_m + step_m) return;
   if (!group.fresh)
     for (std::uint32_t k = group.begin; k < group.end; ++k) task.pairs[k].contact = kNoContact;
@@ -95,9 +97,9 @@ void find_crossing_in(const ContactSource& source, const CrossingSearch& how, Pa
     if (pair.until_m > group.travel_m + step_m) continue;
     if (are_loose(pair.particle, pair.edges, source.loose)) continue;
     const PairContact& contact = known_contact(source, group, pair, task);
-    if (!(contact.gap_m > 0.0f) || step_m < contact.apart_m - least_of(contact)) continue;
+    if (!(contact.gap_m > 0.0f) || step_m < contact.apart_m - least_distance(contact)) continue;
     if (!would_cross(contact, source, how.now)) continue;
-    if (!can_be_parted(contact, how)) {
+    if (!can_be_separated(contact, how)) {
       task.pressed.push_back(pair);
       continue;
     }
@@ -118,7 +120,7 @@ Index root_of(Index i, std::vector<Index>& parent) {
 }
 
 // Adds a particle to the zones, as one of its own.
-void enter(Index i, std::span<const Point> before, std::span<const Point> now, Zones& z) {
+void add_to_zones(Index i, std::span<const Point> before, std::span<const Point> now, Zones& z) {
   if (z.parent[i] != geometry::kNoIndex) return;
   z.parent[i] = i;
   z.members.push_back(i);
@@ -127,7 +129,7 @@ void enter(Index i, std::span<const Point> before, std::span<const Point> now, Z
   z.wanted.push_back(wanted);
 }
 
-// Moves zones so far out of the body that none of their guarded particles sinks, if that is possible.
+// Moves zones out of the body until none of their guarded particles sinks, or a few sweeps have been made.
 void lift_zones(std::span<const Point> before, Zones& z) {
   for (int sweep = 0; sweep < kLifts; ++sweep)
     for (const Index i : z.members) {
@@ -142,7 +144,7 @@ void move_zones(const Particles& p, std::span<const Point> before, std::span<Poi
   for (const Index i : z.members) z.moved[i] = splat(0.0f);
   for (std::size_t k = 0; k < z.members.size(); ++k) {
     const Index i = z.members[k];
-    const float mass = now[i].weight > 0.0f ? p.mass[i] : kPinOfZone * p.mass[i];
+    const float mass = now[i].weight > 0.0f ? p.mass[i] : kPinnedMassInZone * p.mass[i];
     Float4 moved = load(z.wanted[k]);
     moved[3] = 1.0f;
     z.moved[root_of(i, z.parent)] += mass * moved;
@@ -174,7 +176,7 @@ std::size_t find_crossing(const engine::Context& context, const ContactSource& s
   engine::parallel_for(context, tasks.size(), 1, [&](std::size_t t, std::size_t) {
     PairTask& task = tasks[t];
     task.crossing.clear(), task.held.clear(), task.pressed.clear();
-    tidy(task), tidy_contacts(task);
+    drop_unused_pairs(task), drop_unused_contacts(task);
     wake_groups(source.mesh, source.off_m, task);
     for (PairGroup& group : task.groups) find_crossing_in(source, how, group, task);
   });
@@ -188,7 +190,8 @@ std::size_t find_crossing_again(const engine::Context& context, const ContactSou
   engine::parallel_for(context, again.size(), kTasksAgain, [&](std::size_t begin, std::size_t end) {
     for (const std::uint32_t t : again.subspan(begin, end - begin)) {
       PairTask& task = tasks[t];
-      tidy(task), tidy_contacts(task);  // in a pinch, rounds find the same groups many times
+      // Where cloth is pinched, rounds find the same groups many times.
+      drop_unused_pairs(task), drop_unused_contacts(task);
       wake_groups(source.mesh, source.off_m, task);
       for (PairGroup& group : task.groups)
         if (moved.has_moved(group)) find_crossing_in(source, how, group, task);
@@ -202,7 +205,7 @@ void join_zones(const std::vector<PairTask>& tasks, const Particles& p, std::spa
   for (const PairTask& task : tasks)
     for (const std::uint32_t k : task.crossing) {
       const Index(&particle)[4] = task.pairs[k].particle;
-      for (const Index i : particle) enter(i, before, now, z);
+      for (const Index i : particle) add_to_zones(i, before, now, z);
       for (const Index i : particle) z.parent[root_of(i, z.parent)] = root_of(particle[0], z.parent);
     }
   move_zones(p, before, now, z);
@@ -210,7 +213,7 @@ void join_zones(const std::vector<PairTask>& tasks, const Particles& p, std::spa
 
 void join_all(const Particles& p, std::span<const Point> before, std::span<Point> now, Zones& z) {
   for (Index i = 0; i < p.count(); ++i) {
-    enter(i, before, now, z);
+    add_to_zones(i, before, now, z);
     z.parent[root_of(i, z.parent)] = root_of(0, z.parent);
   }
   move_zones(p, before, now, z);

@@ -1,5 +1,5 @@
-// Impact zones: the last resort for parts that would cross in a substep. All particles of such pairs move
-// together instead, by the mean of their displacements, so that nothing among them comes nearer.
+// Impact zones: the last resort for pairs that would cross in a substep. All particles of such pairs move
+// together by the mean of their displacements, so that their distances do not change.
 // Based on: David Harmon, Etienne Vouga, Rasmus Tamstorf, Eitan Grinspun. Robust Treatment of Simultaneous
 // Collisions. 2008. - section 1 (rigid impact zones; Xavier Provot. 1997)
 // Differs: zones move straight, because a turn within a substep is small. Pairs are tested by planes first.
@@ -17,23 +17,22 @@ namespace bodice::inline v0_1::cloth {
 
 /// The zones of a substep.
 struct Zones {
-  std::vector<Index> parent;    ///< #P: union-find; a particle of no zone is its own parent
+  std::vector<Index> parent;    ///< #P: union-find over zones; kNoIndex for a particle of no zone
   std::vector<Index> members;   ///< the particles of all zones
-  std::vector<Float4> moved;    ///< #P: at a zone's root: mass times displacement, and mass
-  std::vector<Point> wanted;    ///< as members: their displacements before they joined a zone
-  std::vector<Point> resolved;  ///< #P: positions where contact with the body was resolved
-  std::vector<Guard> guard;     ///< #P: what keeps particles from sinking from there
+  std::vector<Float4> moved;    ///< #P: at a zone's root: the displacement of the zone, in the end
+  std::vector<Point> wanted;    ///< for each of `members`: its displacement before it joined a zone
+  std::vector<Point> resolved;  ///< #P: positions to which contact with the body moved the particles
+  std::vector<Guard> guard;     ///< #P: guards that keep particles from sinking into the body from `resolved`
 };
 
 Zones make_zones(std::size_t particles);
 
-/// The condition under which pairs may cross. With ample room, they may only if none of their particles can
-/// be moved. With scarce room, they may also if the body or pins press their parts together from both sides.
-/// So may pairs within one zone then, because a zone crosses itself only where guarded particles cannot move
-/// with it.
+/// The condition under which a pair may cross. With ample room it may only if none of its particles can be
+/// moved. With scarce room it may also if the body or pins press its parts together from both sides, or if it
+/// lies within one zone. A zone crosses itself only where guarded particles cannot move with it.
 enum class Room : std::uint8_t { kAmple, kScarce };
 
-/// The particles among which pairs that would cross are searched for.
+/// The parameters of a search for pairs that would cross.
 struct CrossingSearch {
   std::span<const Point> now;    ///< #P: where paths end; a particle without weight cannot be moved
   std::span<const Guard> guard;  ///< #P: as Zones::guard
@@ -41,22 +40,22 @@ struct CrossingSearch {
   Room room = Room::kAmple;
 };
 
-/// Lists the pairs that would cross on their paths, by task, and apart from them those that may; returns the
-/// number of the former.
+/// Lists in each task the pairs that would cross on their paths (`crossing`), and those of them that may
+/// (`pressed`). Returns the number of pairs in `crossing`.
 std::size_t find_crossing(const engine::Context& context, const ContactSource& source,
                           const CrossingSearch& how, std::vector<PairTask>& tasks);
 
-/// Lists the pairs of moved leaves that would cross, and returns their number. Pairs that may cross are added
-/// to those found before. It costs as much as all groups in tasks with such leaves.
+/// The same for the pairs of moved leaves alone. Pairs that may cross are added to those found before. Cost:
+/// O(groups in the tasks with moved leaves).
 std::size_t find_crossing_again(const engine::Context& context, const ContactSource& source,
                                 const CrossingSearch& how, MovedLeaves& moved, std::vector<PairTask>& tasks);
 
-/// Joins the particles of the pairs that would cross, and moves all zones: writes their members' positions to
-/// `now`. Pins stay where they are; a zone with some moves as these do.
+/// Joins the particles of each pair that would cross into one zone, and moves all zones: writes their
+/// members' positions to `now`. Pins stay where they are, and a zone with pins moves as they do.
 void join_zones(const std::vector<PairTask>& tasks, const Particles& particles, std::span<const Point> before,
                 std::span<Point> now, Zones& zones);
 
-/// Moves the whole garment by its mean displacement.
+/// Joins all particles into one zone, and moves the whole garment by its mean displacement.
 void join_all(const Particles& particles, std::span<const Point> before, std::span<Point> now, Zones& zones);
 
 /// Forgets all zones.

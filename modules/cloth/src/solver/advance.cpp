@@ -84,7 +84,7 @@ void begin_frame(const engine::Context& context, const Plan& plan, State& s) {
   if (touches_itself(plan, s))
     begin_self_contact(context, p, s.self);
   else
-    s.self.sided = false, forget_pairs(s.self);
+    s.self.crossings_known = false, forget_pairs(s.self);
 }
 
 void solve_block(std::size_t block, bool bend, float inverse_h2, Patch& patch, State& s) {

@@ -133,7 +133,7 @@ bool set_positions(std::span<const Vec3> world_positions, State& s) {
     p.point[i] = {at.x(), at.y(), at.z(), p.point[i].weight};
   }
   wake_all(s.sleep);
-  s.self.sided = false, forget_pairs(s.self);
+  s.self.crossings_known = false, forget_pairs(s.self);
   forget_owners(s.contacts.motion);
   return true;
 }
