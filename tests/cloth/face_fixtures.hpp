@@ -16,8 +16,8 @@ namespace geometry = bodice::geometry;
 namespace proxy = bodice::proxy;
 
 inline constexpr double kThickness_m = 1.5e-3;
-/// How much nearer than the thickness a point between samples may be: twice the sag that contact allows,
-/// which is an eighth of the thickness, because particles lie on the body and not exactly at the thickness.
+/// How much nearer than the thickness a point between samples may be: a quarter of the thickness, the error
+/// that face contact allows.
 inline constexpr double kSag_m = 0.25 * kThickness_m;
 
 /// Depth that no point may exceed in the tests of proofs.

@@ -78,7 +78,7 @@ struct LayerScene {
   int frames = 60;
 };
 
-/// What came of a scene.
+/// The outcome of a scene.
 struct LayerOutcome {
   std::size_t start = 0, worst = 0, end = 0;  ///< pairs of triangles that cross
   double deepest_m = 0.0;                     ///< how deep the deepest particle was

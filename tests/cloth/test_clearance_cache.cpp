@@ -1,5 +1,5 @@
-// A cluster that the cache calls clear of the body is clear: the oracle is each particle's own distance in
-// every substep.
+// A cluster that the cache skips touches nothing. The oracle is the distance of each particle in every
+// substep.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -17,8 +17,8 @@ using namespace bodice_test;
 namespace {
 
 constexpr double kReach_m = 0.004;
-constexpr std::size_t kClusters = 40,
-                      kCount = kClusters * cloth::kCluster - 13;  // the last cluster is not full
+// The last cluster is not full.
+constexpr std::size_t kClusters = 40, kCount = kClusters * cloth::kCluster - 13;
 
 std::vector<geometry::Ellipsoid> shapes() {
   std::vector<geometry::Ellipsoid> out;
@@ -81,7 +81,8 @@ void travel(const engine::Random& random, std::uint64_t substep, cloth::Particle
 }  // namespace
 
 TEST_CASE(
-    "clearance cache: a particle that touches is never missed, and its cluster stays in for the frame") {
+    "clearance cache: the cluster of a touching particle is never skipped, and not in the rest of the "
+    "frame") {
   const std::vector<geometry::Ellipsoid> all = shapes();
   const collision::Collider body = body_of(all);
   std::size_t clear = 0, in_reach = 0;
@@ -113,7 +114,7 @@ TEST_CASE(
   CHECK(in_reach > 1000);  // and enough particles touch to be missed
 }
 
-TEST_CASE("clearance cache: without a body at rest every cluster may touch") {
+TEST_CASE("clearance cache: without a body every cluster may touch") {
   const collision::Collider body = body_of(shapes());
   cloth::Particles p = scatter(engine::Random(3), body.origin() + Vec3::Constant(9.0));
   cloth::ClearanceCache clearance = cloth::make_clearance_cache(kCount);
@@ -122,8 +123,7 @@ TEST_CASE("clearance cache: without a body at rest every cluster may touch") {
     CHECK(cloth::may_touch(p, c * cloth::kCluster, (c + 1) * cloth::kCluster, clearance));
 }
 
-TEST_CASE(
-    "clearance cache: a cluster with a touching particle may touch, and no other cluster for that reason") {
+TEST_CASE("clearance cache: one touching particle makes its own cluster touch, and no other cluster") {
   const collision::Collider body = body_of(shapes());
   cloth::Particles p = scatter(engine::Random(3), body.origin());
   for (float& y : p.y) y += 9.0f;
@@ -136,7 +136,7 @@ TEST_CASE(
     CHECK(cloth::may_touch(p, c * cloth::kCluster, (c + 1) * cloth::kCluster, clearance) == (c == 1));
 }
 
-TEST_CASE("clearance cache: a particle that touches is not missed where relief is steep") {
+TEST_CASE("clearance cache: the cluster of a touching particle is not skipped where relief is steep") {
   // The ball has rings half a millimeter apart, alternately flat and 2.5 mm high.
   constexpr double kRadius_m = 0.05;
   constexpr int kNodes = 255;
@@ -150,8 +150,8 @@ TEST_CASE("clearance cache: a particle that touches is not missed where relief i
   data.relief[0].h_scale_m = 0.0025f;
   for (int j = 0; j < kNodes; ++j)
     for (int i = 0; i < kNodes; ++i) {
-      const int ring =
-          std::min({i, j, kNodes - 1 - i, kNodes - 1 - j});  // the whole border has the same value
+      // The whole border has the same value.
+      const int ring = std::min({i, j, kNodes - 1 - i, kNodes - 1 - j});
       data.texels.push_back({static_cast<std::uint8_t>(ring / 2 % 2 == 0 ? 0 : 255), 0});
     }
   const auto proxy = proxy::BodyProxy::make(std::move(data));

@@ -39,13 +39,13 @@ TEST_CASE("coloring: no two constraints of a color share a particle, and every c
   }
 }
 
-TEST_CASE("coloring: 200 constraints around one particle take 200 colors, more than a word holds") {
+TEST_CASE("coloring: 200 constraints of one particle take 200 colors, more than a machine word has bits") {
   std::vector<geometry::Index> particles;
   for (geometry::Index k = 1; k <= 200; ++k) particles.insert(particles.end(), {0, k});
   check_coloring(particles, 2, 201);
   CHECK(cloth::color(particles, 2, 201).colors() == 200);
 }
 
-TEST_CASE("coloring: no constraints take no colors") {
+TEST_CASE("coloring: an empty list of constraints has no color") {
   CHECK(cloth::color({}, 2, 10).colors() == 0);
 }

@@ -14,12 +14,12 @@ TEST_CASE("contact extremes: a tube that begins wholly inside a trunk comes out,
   cloth::SolverOptions how = layered(true);
   how.environment.gravity_m_s2 = Vec3::Zero();
   cloth::Solver solver = make_solver(mesh, {}, cotton(), how);
-  for (int frame = 0; frame < 45; ++frame) {  // longer than particles are quiet before they sleep
+  for (int frame = 0; frame < 45; ++frame) {  // longer than a particle is quiet before it sleeps
     CAPTURE(frame);
     const cloth::FrameReport report = solver.step({}, body, kFrame_s);
     REQUIRE(report.finite);
-    // Constraints bring many pairs together before contact puts them back; only a bounded number of these is
-    // listed.
+    // Constraints bring many parts together before contact puts them back. The number of listed pairs stays
+    // bounded.
     CHECK(report.layers.pairs < 25 * solver.particles());
     if (frame > 0) CHECK((report.limits & cloth::kSpeedClamped) == 0);
     const std::vector<Vec3> at = positions(solver, mesh.positions.size());
@@ -29,7 +29,7 @@ TEST_CASE("contact extremes: a tube that begins wholly inside a trunk comes out,
   }
 }
 
-TEST_CASE("contact extremes: a step of no time leaves layers that cross as they are, and still counts them") {
+TEST_CASE("contact extremes: a step of 0 s moves nothing and still counts the layers that cross") {
   const collision::Collider body = ellipsoid_body(Vec3(0, -5, 0), Vec3::Constant(0.1));
   TriMesh mesh = sheet(8, 8, 0.2, 0.2, Vec3::Zero());
   TriMesh other = sheet(8, 8, 0.2, 0.2, Vec3(0.01, 0, 0.01));

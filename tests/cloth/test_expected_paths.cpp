@@ -1,4 +1,4 @@
-// Where particles are expected to go.
+// The expected paths of particles.
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 
 using namespace bodice;
 
-TEST_CASE("the drift of cloth that has come to rest becomes zero, and never subnormal") {
+TEST_CASE("expected paths: the smoothed velocity of cloth at rest becomes zero, and is never subnormal") {
   cloth::SelfContact self;
   self.before.resize(3), self.now.resize(3), self.drift.resize(3);
   self.drift[1] = {1e-3f, 0.0f, -2.0f, 0.0f};

@@ -1,4 +1,5 @@
-// For any input of the host, a frame ends, stays finite and bounded, and reports what was bounded.
+// For any input of a caller a frame ends, its result is finite and bounded, and its report states what was
+// bounded.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -40,7 +41,7 @@ Outcome run(const TriMesh& mesh, const cloth::SolverOptions& options, const coll
 
 }  // namespace
 
-TEST_CASE("extremes: a step of no time changes no bit, and reports") {
+TEST_CASE("extremes: a step of 0 s changes no bit, and its report is complete") {
   const collision::Collider body = ellipsoid_body(Vec3(0, 1, 0), Vec3::Constant(0.2));
   cloth::Solver solver = make_solver(sheet(6, 6, 0.6, 0.6, Vec3(-0.3, 1.25, -0.3)), {}, cotton(), {});
   const engine::Context context;
@@ -70,7 +71,7 @@ TEST_CASE("extremes: long, short and violent frames stay finite and report what 
   CHECK(run(mesh, options, body, 1.0 / 60.0, 60).reach < 200.0 + 5.0);
 }
 
-TEST_CASE("extremes: a garment thrown at the body at 50 m/s does not end inside or beyond it") {
+TEST_CASE("extremes: a garment thrown at the body at 50 m/s ends neither inside nor behind it") {
   const geometry::Ellipsoid shape{Vec3(0, 1, 0), geometry::Mat3::Identity(), Vec3(0.3, 0.2, 0.3)};
   const collision::Collider body = ellipsoid_body(shape.center, shape.radii);
   const TriMesh mesh = sheet(16, 16, 0.4, 0.4, Vec3(-0.2, 1.8, -0.2));
@@ -108,7 +109,8 @@ TEST_CASE("extremes: one triangle, slivers and extreme mass ratios stay bounded"
   one.positions = {Vec3(-0.05, 1.3, 0), Vec3(0.05, 1.3, 0), Vec3(0, 1.3, 0.1)};
   one.triangles = {{0, 1, 2}};
   CHECK(run(one, {}, body, 1.0 / 60.0, 120).reach < 50.0);
-  TriMesh mixed = one;  // areas differ by a factor of 1e4; most triangles are small, so that none is dropped
+  // Areas differ by a factor of 1e4; most triangles are small, so that weld() drops none.
+  TriMesh mixed = one;
   for (Index k = 0; k < 6; ++k) {
     mixed.positions.insert(mixed.positions.end(),
                            {Vec3(0.0005, 1.3, 0.101 + 0.001 * k), Vec3(-0.0005, 1.3, 0.101 + 0.001 * k)});

@@ -7,7 +7,7 @@
 using namespace bodice;
 
 TEST_CASE(
-    "fabric: every preset is found by its name and is valid, and known fabrics are in the known order") {
+    "fabric: every preset has its name and is valid, and known fabrics differ as they should") {
   const auto names = cloth::fabric_names();
   REQUIRE(names.size() == 5);
   for (const std::string& name : names) {
@@ -16,7 +16,7 @@ TEST_CASE(
     CHECK(fabric->name == name);
     CHECK(cloth::check(*fabric).ok());
   }
-  // These orders are common knowledge and hold for any exact constants.
+  // These orders are common knowledge, and hold for any exact choice of the constants.
   CHECK(cloth::find_fabric("silk")->density_kg_m2 < cloth::find_fabric("denim")->density_kg_m2);
   CHECK(cloth::find_fabric("jersey")->stretch_n_m < cloth::find_fabric("cotton")->stretch_n_m);
   CHECK(cloth::find_fabric("silk")->bend_n_m < cloth::find_fabric("leather")->bend_n_m);

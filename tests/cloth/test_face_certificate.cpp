@@ -1,4 +1,4 @@
-// What is proved of triangles holds at every point of them.
+// A proof of triangles holds at every point of them.
 #include <doctest/doctest.h>
 
 #include "face_fixtures.hpp"
@@ -7,8 +7,7 @@ using namespace bodice;
 using namespace bodice_test;
 
 TEST_CASE(
-    "face certificate: what is proved holds at every point, on a limb that swings; without contact it does "
-    "not") {
+    "face certificate: on a swinging limb a proof holds at every point; without contact there is none") {
   for (const bool on : {true, false}) {
     CAPTURE(on);
     cloth::SolverOptions how = options(on);
@@ -34,7 +33,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("face certificate: a fingertip that rises between samples is proved to stay below the cloth") {
+TEST_CASE("face certificate: a fingertip that rises between samples does not come through the cloth") {
   cloth::SolverOptions how = options(true);
   how.certify_m = kCertified_m;
   std::vector<geometry::Ellipsoid> tip = {ellipsoid(Vec3(0, 0.99, 0), Vec3::Constant(0.008))};
@@ -52,7 +51,7 @@ TEST_CASE("face certificate: a fingertip that rises between samples is proved to
   }
 }
 
-TEST_CASE("face certificate: a triangle that a limb is held in has no proof") {
+TEST_CASE("face certificate: a triangle with pinned corners that cuts a limb has no proof") {
   // All corners are pins, so that nothing can be pushed.
   const std::vector<geometry::Ellipsoid> ball = {ellipsoid(Vec3(0.1, 1, 0.1), Vec3::Constant(0.02))};
   const collision::Collider body = collider_of(ball);

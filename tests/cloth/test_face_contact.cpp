@@ -1,4 +1,4 @@
-// Edges and triangles keep out of the body, and not only their particles.
+// Edges and triangles stay out of the body, not only their particles.
 #include <doctest/doctest.h>
 #include <bodice_test/allocations.hpp>
 #include <bodice_test/executors.hpp>
@@ -53,7 +53,7 @@ bool middle_is_pushed(std::span<const geometry::Ellipsoid> shapes, const Vec3& a
 
 }  // namespace
 
-TEST_CASE("face contact: a sample is pushed between two toes, and not through a limb") {
+TEST_CASE("face contact: a sample is pushed out between two toes, and never through a limb") {
   const std::vector<geometry::Ellipsoid> toes = {ellipsoid(Vec3(-0.01, 1, 0), Vec3(0.008, 0.008, 0.03)),
                                                  ellipsoid(Vec3(0.01, 1, 0), Vec3(0.008, 0.008, 0.03))};
   // This edge leads from the side of one toe that faces the other into the other, over the gap: the surfaces
@@ -65,7 +65,7 @@ TEST_CASE("face contact: a sample is pushed between two toes, and not through a 
   CHECK(middle_is_pushed(toe, Vec3(-0.01, 1.009, -0.01), Vec3(-0.01, 1.0085, 0.01)));
 }
 
-TEST_CASE("face contact: a sample that sank below the middle of a flat limb is pushed to its edge's side") {
+TEST_CASE("face contact: a sample below the middle of a flat limb is pushed out on the side of its edge") {
   const geometry::Ellipsoid flat = ellipsoid(Vec3(0, 1, 0), Vec3(0.05, 0.01, 0.1));
   EdgeSample sunk(std::span(&flat, 1), Vec3(-0.02, 1.01, 0), Vec3(0.02, 1.01, 0), 0.012);
   CHECK(sunk.sample.normal[1] < -0.9f);
@@ -75,7 +75,8 @@ TEST_CASE("face contact: a sample that sank below the middle of a flat limb is p
   CHECK(sunk.pushed().y() == doctest::Approx(1.01).epsilon(1e-4));
 }
 
-TEST_CASE("face contact: a tight sleeve of long edges keeps the thickness everywhere, without it they cut") {
+TEST_CASE(
+    "face contact: the long edges of a tight sleeve keep the thickness; without face contact they cut in") {
   for (const bool on : {true, false}) {
     CAPTURE(on);
     Sleeve sleeve(on);
@@ -93,7 +94,7 @@ TEST_CASE("face contact: a tight sleeve of long edges keeps the thickness everyw
   }
 }
 
-TEST_CASE("face contact: a fingertip that no corner meets carries the middle of a triangle") {
+TEST_CASE("face contact: a fingertip far from all corners carries the middle of a triangle") {
   // A ball of 8 mm stands under the middle of a taut triangle of 6 cm, and rises 3 cm in half a second.
   for (const bool on : {true, false}) {
     CAPTURE(on);
@@ -269,7 +270,7 @@ TEST_CASE("face contact: pushes of one substep do not add up beyond the recovery
   for (int push = 0; push < 5; ++push)
     CHECK(cloth::push_out(sample, {.length_s = kSubstep_s}, particles, faces));
   CHECK(position(sample, faces.now)[1] == doctest::Approx(kSubstep_s).epsilon(1e-3));
-  // Deeper corners are left to the contact of particles.
+  // A sample with deeper corners is not pushed, because contact of particles moves these.
   faces.nearest.assign(3, {.signed_distance = -0.05f});
   CHECK_FALSE(cloth::push_out(sample, {.length_s = kSubstep_s}, particles, faces));
 }

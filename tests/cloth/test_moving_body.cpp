@@ -72,7 +72,7 @@ TriMesh band(double radius) {
   return mesh;
 }
 
-/// The mean angle about y from one state to another, less than half a turn.
+/// The mean rotation about y from one state to another, less than half a turn.
 double turned_rad(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
   double sine = 0.0, cosine = 0.0;
   for (std::size_t v = 0; v < from.size(); ++v) {
@@ -130,7 +130,7 @@ TEST_CASE("moving body: a band comes to rest when its body stops") {
   CHECK(report.asleep == solver.particles());
 }
 
-TEST_CASE("moving body: cloth on a sliding floor follows it up to the acceleration of friction, mu g") {
+TEST_CASE("moving body: cloth on a sliding floor follows it while its acceleration is at most mu g") {
   constexpr double kMu = 0.4, kGravity = 9.81;
   for (const double acceleration : {0.5 * kMu * kGravity, 2.0 * kMu * kGravity}) {
     CAPTURE(acceleration);
@@ -173,7 +173,7 @@ TEST_CASE("moving body: an arm that moves by its own width in a frame pushes a c
   }
 }
 
-TEST_CASE("moving body: cloth around a limb stays with it when another limb comes where it was") {
+TEST_CASE("moving body: cloth stays on its limb when another limb moves to where the limb was") {
   constexpr double kRadius_m = 0.05, kAside_m = 0.13, kStart_m = 0.5, kFastest_m = 0.12, kFaster_m = 0.02;
   geometry::Ellipsoid limbs[2];
   proxy::BodyProxy::Data data;
@@ -205,7 +205,7 @@ TEST_CASE("moving body: cloth around a limb stays with it when another limb come
   }
 }
 
-TEST_CASE("moving body: a particle with a long path leaves its neighbors to the quick push") {
+TEST_CASE("moving body: continuous collision of one fast particle does not change its neighbors' pushes") {
   constexpr std::size_t kCount = 200, kLong = 70;
   geometry::Ellipsoid limb{Vec3::Zero(), geometry::Mat3::Identity(), Vec3(0.3, 0.05, 0.05)};
   collision::Collider body = ellipsoid_body(limb.center, limb.radii);
@@ -240,7 +240,7 @@ TEST_CASE("moving body: a particle with a long path leaves its neighbors to the 
     if (i != kLong) REQUIRE(with.y[i] == without.y[i]);
 }
 
-TEST_CASE("moving body: a push is along the normal of the body as it is when the substep ends") {
+TEST_CASE("moving body: a push is along the body's normal at the end of the substep") {
   constexpr double kTurn_rad = 0.3;
   geometry::Ellipsoid limb{Vec3::Zero(), geometry::Mat3::Identity(), Vec3(0.3, 0.05, 0.05)};
   collision::Collider body = ellipsoid_body(limb.center, limb.radii);

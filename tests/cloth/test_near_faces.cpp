@@ -1,4 +1,4 @@
-// Quick bounds on how near leaves of triangles are, against plain loops.
+// Fast bounds of the distances of leaves, compared with loops over all triangles.
 #include <doctest/doctest.h>
 
 #include <numbers>
@@ -22,8 +22,7 @@ Eigen::AlignedBox3d box_of(const cloth::Face& face, std::span<const cloth::Point
 }  // namespace
 
 TEST_CASE(
-    "near faces: a fold may turn until its normals are 75 degrees from their mean, and is not flat from 60 "
-    "on") {
+    "near faces: a patch is flat up to 60 degrees from its mean normal, and may turn up to 75 degrees") {
   for (const double degrees : {0.0, 20.0, 60.0, 90.0, 115.0, 119.0, 121.0, 150.0, 170.0}) {
     CAPTURE(degrees);
     const double angle = degrees * std::numbers::pi / 180.0;
@@ -37,7 +36,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("near faces: the distance of two leaves' boxes is that of the nearest two triangles' boxes") {
+TEST_CASE("near faces: the distance of two leaves is the least distance of their triangles' boxes") {
   std::mt19937 random(5);
   std::normal_distribution<double> normal(0.0, 0.1);
   for (int round = 0; round < 200; ++round) {

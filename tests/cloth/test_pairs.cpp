@@ -1,4 +1,4 @@
-// Pairs of parts that may touch: what is looked at again, and what is spared.
+// Pairs of parts that may touch: which are tested anew, and which are left out.
 #include <doctest/doctest.h>
 
 #include "layer_fixtures.hpp"
@@ -42,7 +42,7 @@ struct Strip {
 
 }  // namespace
 
-TEST_CASE("pairs: parts that touch are in contact again once they are apart, unless they coincide at rest") {
+TEST_CASE("pairs: parts that touched have a contact once they are apart, unless they coincide at rest") {
   const cloth::ContactMesh mesh;
   const std::vector<cloth::Point> apart = {{-1, 0, 0, 1}, {1, 0, 0, 1}, {0, 1e-4f, -1, 1}, {0, 1e-4f, 1, 1}},
                                   touching = {{-1, 0, 0, 1}, {1, 0, 0, 1}, {0, 0, -1, 1}, {0, 0, 1, 1}};
@@ -57,7 +57,7 @@ TEST_CASE("pairs: parts that touch are in contact again once they are apart, unl
   CHECK(cloth::contact_of(source(apart, touching), coincident).gap_m == 0.0f);
 }
 
-TEST_CASE("pairs: a flat patch has none until it may have turned") {
+TEST_CASE("pairs: a flat patch has no pairs until it may have folded") {
   Strip strip(0.0);
   strip.keep(1e-3f);
   CHECK(strip.group().spared);
@@ -77,7 +77,7 @@ TEST_CASE("pairs: a flat patch has pairs as soon as one beside it is folded") {
   CHECK(strip.has_pairs());
 }
 
-TEST_CASE("pairs: the leaves of a folded patch are noted when a substep ends, and no others") {
+TEST_CASE("pairs: at the end of a substep the leaves of a folded patch are marked, and no others") {
   for (const double degrees : {0.0, 150.0}) {
     CAPTURE(degrees);
     Strip strip(degrees * std::numbers::pi / 180.0);
@@ -89,7 +89,7 @@ TEST_CASE("pairs: the leaves of a folded patch are noted when a substep ends, an
 }
 
 TEST_CASE(
-    "pairs: leaves with boxes that overlap, without a pair, are looked at again once they may be near") {
+    "pairs: leaves without a pair are tested again once they may be near, although their boxes overlap") {
   // Two triangles that lie over each other at 45 degrees, 6 mm apart.
   constexpr double kApart_m = 6e-3, kSide_m = 20e-3;
   const Vec3 along = Vec3(1, 1, 0).normalized(), across = Vec3(-1, 1, 0).normalized();

@@ -1,5 +1,5 @@
 // Cloth between two parts of a body that come together: an arm in a sleeve against a trunk in a shirt.
-// Contact with the body is resolved last: layers that hold each other apart must not go into it.
+// Contact with the body has priority: layers that push each other apart must not go into it.
 #include <doctest/doctest.h>
 
 #include "layer_fixtures.hpp"
@@ -44,11 +44,11 @@ LayerScene arm_against_trunk(double in_m, double top_m, double length_m) {
   return scene;
 }
 
-// What lies between two bodies that overlap by in_mm is half of that deep in one of them, unless it slips
-// aside. Pinned rims go in with the arm, and cross while it is in, whatever the solver does. With rims that
-// are clear, few triangles cross where cloth that comes nearer to the body has room: at most kFew, where 51
-// to 115 cross if it keeps its full thickness. Where the bodies overlap, 19 to 160 cross, depending on
-// rounding. Half a second after the arm has gone nothing crosses.
+// Cloth between two bodies that overlap by in_mm is at least half of that deep in one of them, unless it
+// slips aside. Pinned rims move in with the arm, and cross while it is there, whatever the solver does. Other
+// triangles cross as follows. Where there is room for cloth with a reduced thickness, at most kFew cross;
+// with its full thickness, 51 to 115 would. Where the bodies overlap, 19 to 160 cross, depending on rounding.
+// Half a second after the arm has gone, none crosses.
 constexpr std::size_t kFew = 25;
 constexpr double kHasRoom_mm = -0.5;
 
@@ -70,11 +70,12 @@ void check_body_priority(double top_m, double length_m, bool rims_are_clear) {
 
 }  // namespace
 
-TEST_CASE("pinch: layers between an arm and a trunk go no deeper than each would, and come apart again") {
+TEST_CASE(
+    "pinch: between an arm and a trunk, layers go no deeper than without self-contact, and uncross after") {
   check_body_priority(1.1, 0.3, false);
 }
 
-TEST_CASE("pinch: so do layers with rims far from where the arm touches") {
+TEST_CASE("pinch: the same holds for layers whose pinned rims are far from the contact") {
   check_body_priority(1.25, 0.5, true);
 }
 

@@ -44,7 +44,7 @@ std::array<std::size_t, arity> named(std::size_t first, Name&& name) {
 }  // namespace
 
 TEST_CASE(
-    "schedule: packs have every edge of a large garment once, and the edges of a pack share no particle") {
+    "schedule: each edge of a large garment is in one pack, and the edges of a pack share no particle") {
   const Garment g;
   REQUIRE(g.particles.count() > 65536);
   const cloth::StretchConstraints c = cloth::make_stretch(g.mesh, g.topology, cotton(), g.particles);
@@ -69,7 +69,8 @@ TEST_CASE(
   CHECK(found == expected);
 }
 
-TEST_CASE("schedule: packs have every hinge of a large garment once, and those of a pack share no particle") {
+TEST_CASE(
+    "schedule: each hinge of a large garment is in one pack, and the hinges of a pack share no particle") {
   const Garment g;
   const cloth::BendConstraints c = cloth::make_bend(g.mesh, g.topology, cotton(), g.particles);
   std::set<std::array<std::size_t, 4>> expected, found;

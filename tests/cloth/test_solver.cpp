@@ -51,7 +51,7 @@ TEST_CASE("solver: a step allocates nothing once warm") {
   CHECK(bodice_test::allocations() == before);
 }
 
-TEST_CASE("solver: the report's quantiles are those of sorted values") {
+TEST_CASE("solver: the report's quantiles equal those of the sorted values") {
   const collision::Collider body = ellipsoid_body(Vec3(0, 1, 0), Vec3::Constant(0.2));
   const TriMesh mesh = sheet(70, 50, 0.8, 0.8, Vec3(-0.4, 1.21, -0.4));  // several tasks of every loop
   cloth::Solver solver = make_solver(mesh, {}, cotton(), windy());
@@ -91,8 +91,7 @@ TEST_CASE("solver: a sheet on a body comes to rest and never gains energy meanwh
   CHECK(report.median_speed_m_s < 1e-3);
 }
 
-TEST_CASE(
-    "solver: at rest the energy, with the elastic one, does not rise, and half of the particles sleep") {
+TEST_CASE("solver: at rest the total energy does not rise, and half of the particles sleep") {
   struct Case {
     int substeps;
     bool self_collision;
@@ -145,7 +144,7 @@ TEST_CASE("sleep: particles wake when another body replaces the one below") {
   for (const Vec3& p : at) CHECK(p.y() < 0.32);
 }
 
-TEST_CASE("sleep: particles wake when the body below is moved in no time") {
+TEST_CASE("sleep: particles wake when the body below is moved within 0 s") {
   geometry::Ellipsoid floor{Vec3(0, 0, 0), geometry::Mat3::Identity(), Vec3(3, 0.5, 3)};
   collision::Collider body = ellipsoid_body(floor.center, floor.radii);
   cloth::Solver solver = make_solver(sheet(8, 8, 0.2, 0.2, Vec3(-0.1, 0.502, -0.1)), {}, cotton(), {});
@@ -190,7 +189,7 @@ TEST_CASE("sleep: particles follow pins that begin to move slowly, and a new vel
 }
 
 // The body's push of a pin is undone; a remaining velocity would drag the cloth in all later substeps.
-TEST_CASE("pins: one inside the body leaves its cloth at rest, for any number of substeps") {
+TEST_CASE("pins: cloth around a pin inside the body stays at rest, for any number of substeps") {
   const TriMesh mesh = sheet(4, 4, 0.4, 0.4, Vec3(-0.2, 0.098, -0.2));
   const std::vector<Index> middle = {12};  // 2 mm inside a ball that no other particle of the sheet touches
   for (const auto response : {collision::Response::kClosestPoint, collision::Response::kPaper}) {
@@ -212,14 +211,14 @@ TEST_CASE("pins: one inside the body leaves its cloth at rest, for any number of
   }
 }
 
-TEST_CASE("solver: a first frame of no time reports a garment at rest") {
+TEST_CASE("solver: a first frame of 0 s reports a garment at rest") {
   cloth::Solver solver = make_solver(sheet(6, 6, 0.2, 0.2, Vec3(0, 1, 0)), {}, cotton(), {});
   const cloth::FrameReport report = solver.step({}, 0.0);
   CHECK(report.stretch_max < 1e-5);
   CHECK(report.elastic_energy_j < 1e-6);
 }
 
-TEST_CASE("gusts: the seed changes the result with gusts, and does not without") {
+TEST_CASE("gusts: the seed changes the result with gusts, and not without them") {
   auto drift = [](double gust, std::uint64_t seed) {
     cloth::SolverOptions options = windy();
     options.environment.gust = gust;
@@ -234,7 +233,7 @@ TEST_CASE("gusts: the seed changes the result with gusts, and does not without")
   CHECK(drift(0.5, 1) != drift(0.5, 2));
 }
 
-TEST_CASE("self-contact: a layer dropped on another one lies on it, and sinks in without self-contact") {
+TEST_CASE("self-contact: a layer dropped on another one lies on it; without self-contact it sinks in") {
   const collision::Collider body = ellipsoid_body(Vec3(0, 0, 0), Vec3(3, 0.5, 3));
   TriMesh mesh = sheet(16, 16, 0.4, 0.4, Vec3(-0.2, 0.5, -0.2));
   const TriMesh top = sheet(16, 16, 0.4, 0.4, Vec3(-0.19, 0.53, -0.19));
@@ -256,7 +255,7 @@ TEST_CASE("self-contact: a layer dropped on another one lies on it, and sinks in
   CHECK(std::abs(mean_gap(false)) < 0.002);
 }
 
-TEST_CASE("budget: one that cannot be met drops work in the stated order and reports it") {
+TEST_CASE("budget: frames over the budget drop work in the stated order, and report it") {
   cloth::SolverOptions options;
   options.budget_us = 1e-3;
   cloth::Solver solver = make_solver(sheet(8, 8, 0.4, 0.4, Vec3::Zero()), {}, cotton(), options);

@@ -51,7 +51,7 @@ struct TwoSheets {
   Index above(Index i) const { return i + static_cast<Index>(particles.count() / 2); }
   /// Lifts a particle of the lower sheet in this substep.
   void lift(Index i, double by_m) { self.now[i].y += static_cast<float>(by_m); }
-  /// Lists groups of what strayed by more than half of the spare distance.
+  /// Lists the groups of particles that deviate by more than half of the spare distance.
   bool list() {
     const float most_m = 0.499f * self.spare_m;
     cloth::measure_deviations({}, self.now, kSubstep_s, most_m, self);
@@ -66,14 +66,14 @@ struct TwoSheets {
     }
     return all;
   }
-  /// The groups with travel of their own: none of these is clear.
+  /// The groups that are not clear.
   std::set<LeafPair> awake() const {
     std::set<LeafPair> all;
     for (const cloth::PairTask& task : self.tasks)
       for (const cloth::PairGroup& group : task.groups) all.emplace(group.leaf[0], group.leaf[1]);
     return all;
   }
-  /// Two leaves with particles that are nearer to each other than the gap, by comparing all with all.
+  /// The pairs of leaves with particles nearer to each other than the gap, by comparing all particles.
   std::set<LeafPair> near() const {
     std::set<LeafPair> all;
     for (std::uint32_t a = 0; a < self.mesh.leaves(); ++a)
@@ -95,9 +95,7 @@ struct TwoSheets {
 
 }  // namespace
 
-TEST_CASE(
-    "strayed leaves: what measure_deviations to another layer has groups with it, and all others keep theirs "
-    "in order") {
+TEST_CASE("strayed leaves: a particle that strays to another layer gets groups with it; all others stay") {
   TwoSheets sheets;
   const std::set<LeafPair> before = sheets.listed();
   for (const auto& [row, column] : {std::pair(3, 5), std::pair(20, 20), std::pair(20, 21), std::pair(39, 0)})
@@ -107,7 +105,7 @@ TEST_CASE(
   const std::set<LeafPair> after = sheets.listed();
   CHECK(std::ranges::includes(after, sheets.near()));
   CHECK(std::ranges::includes(after, before));
-  CHECK(after.size() < before.size() + before.size() / 10);  // nothing near the others is listed
+  CHECK(after.size() < before.size() + before.size() / 10);  // no group is added near other particles
   for (const cloth::PairTask& task : sheets.self.tasks)
     for (std::size_t g = 1; g < task.groups.size(); ++g) {
       const cloth::PairGroup &a = task.groups[g - 1], &b = task.groups[g];
@@ -115,7 +113,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("strayed leaves: a particle may stray as far once more, and farther is listed again") {
+TEST_CASE("strayed leaves: a particle may stray as far again without a new list, and not farther") {
   TwoSheets sheets;
   const Index i = sheets.at(7, 7);
   sheets.lift(i, 12e-3);
@@ -130,7 +128,7 @@ TEST_CASE("strayed leaves: a particle may stray as far once more, and farther is
   CHECK(std::ranges::includes(sheets.listed(), sheets.near()));
 }
 
-TEST_CASE("strayed leaves: many, one that is very far, and a tree of other sweeps need a whole search") {
+TEST_CASE("strayed leaves: many particles, a very far one, or a tree of other sweeps need a new search") {
   TwoSheets many;
   for (int column = 0; column <= kCellsASide; ++column) many.lift(many.at(9, column), 12e-3);
   CHECK_FALSE(many.list());
@@ -143,12 +141,12 @@ TEST_CASE("strayed leaves: many, one that is very far, and a tree of other sweep
   CHECK_FALSE(other.list());
 }
 
-TEST_CASE("strayed leaves: what stays apart on expected paths is clear, and woken once it came near") {
+TEST_CASE("strayed leaves: leaves that stay apart on expected paths have no pairs until they come near") {
   TwoSheets sheets(10.2e-3);
   const std::set<LeafPair> before = sheets.awake();
   CHECK(before.size() < sheets.listed().size());  // the sheets are in reach of each other
   CHECK(std::ranges::includes(before, sheets.near()));
-  // Both stay within what all particles are allowed, and come nearer than the gap together.
+  // Each particle deviates by less than is allowed, but together they come nearer than the gap.
   const Index lower = sheets.at(20, 20), upper = sheets.above(lower);
   sheets.particles.point[lower].y += 3.9e-3f, sheets.particles.point[upper].y -= 3.9e-3f;
   sheets.push_apart();

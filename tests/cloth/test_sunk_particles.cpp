@@ -1,4 +1,4 @@
-// The rules by which layers cross where a body leaves no room, and come apart again.
+// Guards, crossings and untangling: how layers cross where a body leaves no room, and come apart again.
 #include <doctest/doctest.h>
 
 #include "contact/sunk_particles.hpp"
@@ -23,8 +23,8 @@ Vec3 to_vec(const Point& p) {
   return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
 }
 
-/// Two positions of a particle, at heights over the top of a ball: where the body left it, and where layers
-/// moved it. Then the height at which its guard keeps it.
+/// Heights of a particle over the top of a ball: after contact with the body, after layers moved it, and
+/// where its guard keeps it.
 struct Moved {
   double from_m, to_m, kept_m;
 
@@ -40,7 +40,7 @@ constexpr Moved kMoved[] = {
     {8e-3, kThickness_m - 0.1e-3, kThickness_m},
 };
 
-/// The same where the body yields to half a millimeter inside.
+/// The same with a least distance of half a millimeter inside the body.
 constexpr double kYielded_m = -0.5e-3;
 constexpr Moved kYielding[] = {
     {kThickness_m, -0.4e-3, -0.4e-3},
@@ -112,15 +112,16 @@ struct Crossed {
 
 }  // namespace
 
-TEST_CASE("sunk particles: what layers move into the body is guarded, by however little, and nothing else") {
+TEST_CASE("sunk particles: a particle that layers move into the body gets a guard, and no other particle") {
   check_guards(kMoved, kThickness_m);
 }
 
-TEST_CASE("sunk particles: where the body yields, they may come that near, but no deeper than they were") {
+TEST_CASE("sunk particles: a smaller least distance lets them come nearer, but not deeper than they were") {
   check_guards(kYielding, kYielded_m);
 }
 
-TEST_CASE("sunk particles: between two walls, the second guard is the wall that the first one led into") {
+TEST_CASE(
+    "sunk particles: between two walls, a push along the first guard gives a guard of the second wall") {
   // The surfaces of two balls are 6 mm apart where they are nearest; the particle begins on the left one.
   const std::vector<geometry::Ellipsoid> walls = {
       ellipsoid(Vec3(-kRadius_m - 3e-3, 0, 0), Vec3::Constant(kRadius_m)),
@@ -144,7 +145,7 @@ TEST_CASE("sunk particles: between two walls, the second guard is the wall that 
   CHECK(std::abs(to_vec(kept).x() + body.origin().x() - (3e-3 - kThickness_m)) < 1e-5);
 }
 
-TEST_CASE("crossings: layers that passed each other far in a frame are found to cross, all of them") {
+TEST_CASE("crossings: all triangles that cross are found after layers passed far through each other") {
   const Crossed before(0.31), after(0.62);
   const cloth::Particles particles = after.particles();
   cloth::SelfContact self = cloth::make_self_contact(after.mesh, particles, 1.5e-3, 0.05);
@@ -157,7 +158,9 @@ TEST_CASE("crossings: layers that passed each other far in a frame are found to 
       for (const Index i : self.mesh.faces[f].particle) CHECK(self.loose.is_loose[i] != 0);
 }
 
-TEST_CASE("tangles: what is drawn apart moves no farther than a step, and stays where both lie on the body") {
+TEST_CASE(
+    "tangles: untangling moves no particle farther than a step, and none where both triangles lie on the "
+    "body") {
   constexpr float kStep_m = 1e-3f;
   const Crossed crossed(0.31);
   std::vector<Point> start, at, room;

@@ -47,8 +47,7 @@ TEST_CASE("weld: separate triangles become the sheet again, at any scale and off
   }
 }
 
-TEST_CASE(
-    "weld: an edge much shorter than others becomes a particle, and a chain of them several particles") {
+TEST_CASE("weld: the ends of a very short edge become one particle, those of a chain of them several") {
   // The quads of the strip are 1 high and 1 wide, except for three columns of 0.06 in its middle.
   const double x[] = {0.0, 1.0, 2.0, 2.06, 2.12, 2.18, 3.18, 4.18};
   TriMesh mesh;
@@ -86,7 +85,7 @@ TEST_CASE("weld: damaged vertices and triangles are dropped and reported, and th
   CHECK(welded->warnings[2].code == "garment-triangles-dropped");
 }
 
-TEST_CASE("weld: 200,000 vertices that a file hides in one point are one") {
+TEST_CASE("weld: 200,000 vertices at one point become one particle in little time") {
   TriMesh mesh = sheet(4, 4, 0.4, 0.4, Vec3::Zero());
   const auto first = static_cast<geometry::Index>(mesh.positions.size());
   mesh.positions.resize(first + 200000, Vec3(0.0, 1e-9, 0.0));  // within the tolerance of a corner
@@ -106,7 +105,7 @@ TEST_CASE("weld: a garment without a usable triangle fails with kUnusableGeometr
   }
 }
 
-TEST_CASE("positions can be set; lengths at rest stay, and what does not fit is refused") {
+TEST_CASE("solver: set_positions() keeps the lengths at rest, and refuses a wrong number or NaN") {
   const TriMesh mesh = sheet(4, 4, 0.4, 0.4, Vec3(-0.2, 1.0, -0.2));
   bodice::cloth::Solver solver = make_solver(mesh, {}, cotton(), {});
   std::vector<Vec3> wider = mesh.positions;

@@ -1,5 +1,5 @@
-// What keeps a frame of crushed cloth bounded: stretched cloth slips on a body that moves, and single
-// particles that are flung take no more substeps.
+// Bounds on the time of a frame of crushed cloth. Stretched cloth loses friction on a moving body, and a few
+// fast particles do not raise the number of substeps.
 #include <doctest/doctest.h>
 
 #include "contact/body_contact.hpp"
@@ -21,9 +21,9 @@ cloth::State pinned_sheet(TriMesh& mesh) {
   return std::move(*state);
 }
 
-/// Displaces a particle that presses 1 mm into a ball by 0.1 mm along its surface; returns how much of that
-/// is left.
-double slip_left(bool moving, float grip) {
+/// Displaces a particle that is 1 mm inside a ball by 0.1 mm along its surface, and resolves its contact.
+/// Returns the displacement that friction has left, meters.
+double displacement_left_m(bool moving, float share) {
   const collision::Collider ball = ellipsoid_body(Vec3::Zero(), Vec3::Constant(0.1));
   const TriMesh quad = sheet(1, 1, 0.1, 0.1, Vec3(0, 0.1, 0));  // touches the ball with its first corner
   cloth::SolverOptions options = vacuum();
@@ -34,7 +34,7 @@ double slip_left(bool moving, float grip) {
   cloth::ContactState& contacts = state->contacts;
   cloth::begin_contact_frame({}, {.body = &ball, .length_s = kFrame_s}, options, state->particles, contacts);
   contacts.motion.moving = moving;
-  contacts.grip.assign(quad.positions.size(), grip);
+  contacts.friction_share.assign(quad.positions.size(), share);
   cloth::Particles& p = state->particles;
   const Index at = state->particle_of_vertex[0];
   p.old_x = p.x, p.old_y = p.y, p.old_z = p.z;
@@ -46,14 +46,14 @@ double slip_left(bool moving, float grip) {
 
 }  // namespace
 
-TEST_CASE("grip: cloth that is stretched far beyond its limit has no friction while it is") {
+TEST_CASE("stretched cloth: on a moving body it has no friction while it is far beyond its strain limit") {
   TriMesh mesh;
   cloth::State state = pinned_sheet(mesh);
   std::vector<Vec3> at = mesh.positions;
   for (Vec3& p : at) p.x() *= p.x() > 0.26 ? 1.3 : 1.0;  // edges beyond the sixth column are 30 % longer
   REQUIRE(cloth::set_pin_targets(at, state.pins));
-  const auto grip_of = [&](std::size_t vertex) {
-    return state.contacts.grip[state.particle_of_vertex[vertex]];
+  const auto share_of = [&](std::size_t vertex) {
+    return state.contacts.friction_share[state.particle_of_vertex[vertex]];
   };
   geometry::Ellipsoid ball{Vec3::Zero(), geometry::Mat3::Identity(), Vec3::Constant(0.1)};
   collision::Collider body = ellipsoid_body(ball.center, ball.radii);
@@ -62,18 +62,18 @@ TEST_CASE("grip: cloth that is stretched far beyond its limit has no friction wh
     body.move_to(std::span(&ball, 1), kFrame_s);
     cloth::advance({}, &body, kFrame_s, state);
   };
-  for (int frame = 0; frame < 2; ++frame) {  // friction is that of the strain when the last frame ended
-    CHECK(grip_of(10) == 1.0f);
+  for (int frame = 0; frame < 2; ++frame) {  // friction follows the strain when the last frame ended
+    CHECK(share_of(10) == 1.0f);
     advance();
   }
-  CHECK(grip_of(0) == 1.0f);
-  CHECK(grip_of(10) == 0.0f);
+  CHECK(share_of(0) == 1.0f);
+  CHECK(share_of(10) == 0.0f);
   REQUIRE(cloth::set_pin_targets(mesh.positions, state.pins));
   for (int frame = 0; frame < 2; ++frame) advance();
-  for (std::size_t v = 0; v < at.size(); ++v) CHECK(grip_of(v) == 1.0f);
+  for (std::size_t v = 0; v < at.size(); ++v) CHECK(share_of(v) == 1.0f);
 }
 
-TEST_CASE("grip: substeps are doubled where that is wanted and a body that moves stretches cloth too far") {
+TEST_CASE("stretched cloth: with doubled_when_stretched, frames take twice the substeps on a moving body") {
   geometry::Ellipsoid ball{Vec3::Zero(), geometry::Mat3::Identity(), Vec3::Constant(0.1)};
   for (const bool wanted : {false, true})
     for (const bool moves : {false, true})
@@ -99,7 +99,7 @@ TEST_CASE("grip: substeps are doubled where that is wanted and a body that moves
       }
 }
 
-TEST_CASE("grip: a few particles that are flung are slowed, and take no more substeps") {
+TEST_CASE("fast particles: a few are slowed without more substeps, many get more substeps") {
   const TriMesh mesh = sheet(24, 24, 0.6, 0.6, Vec3::Zero());
   auto state = cloth::make_state(mesh, {}, cotton(), vacuum());
   REQUIRE(state.ok());
@@ -113,10 +113,11 @@ TEST_CASE("grip: a few particles that are flung are slowed, and take no more sub
   CHECK(fling(20).substeps > vacuum().substeps);
 }
 
-TEST_CASE("grip: friction acts by its share where the body moves, and wholly where it does not") {
-  const double held = slip_left(true, 1.0f);
+TEST_CASE(
+    "stretched cloth: a reduced share of friction acts on a moving body, full friction on a still one") {
+  const double held = displacement_left_m(true, 1.0f);
   CHECK(held < 1e-6);
-  CHECK(slip_left(true, 0.0f) == doctest::Approx(1e-4).epsilon(0.05));
-  CHECK(slip_left(true, 0.1f) > held + 3e-5);
-  CHECK(slip_left(false, 0.0f) == doctest::Approx(held).epsilon(0.05));
+  CHECK(displacement_left_m(true, 0.0f) == doctest::Approx(1e-4).epsilon(0.05));
+  CHECK(displacement_left_m(true, 0.1f) > held + 3e-5);
+  CHECK(displacement_left_m(false, 0.0f) == doctest::Approx(held).epsilon(0.05));
 }
