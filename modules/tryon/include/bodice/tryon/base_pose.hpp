@@ -1,4 +1,5 @@
-// Base poses: the tables of a bound proxy solved anew where those carried from rest err too much.
+// Base poses: the tables of a bound proxy, solved anew for poses in which tables carried from rest are too
+// inaccurate.
 #pragma once
 
 #include <limits>
@@ -24,13 +25,15 @@ engine::Result<std::shared_ptr<const proxy::BasePose>> make_base_pose(const engi
                                                                       std::span<const rig::Affine> world,
                                                                       std::string name);
 
-/// Joints that are turned farther than this from every base pose of a prepared clip get another one.
+/// A prepared clip gets another base pose where its joints are turned farther than this from every earlier
+/// one.
 inline constexpr double kPreparedTurn_rad = 0.2;
 
-/// Prepares a clip that is known beforehand: base poses along it, in the order of their times, so that no
-/// pose of it is farther than kPreparedTurn_rad from rest or one of them (at most 64 of them; then poses late
-/// in the clip are farther). Named by the clip and the second. What follows `until_s` is left out. Fails as
-/// make_base_pose() does. Takes as long as that for each; `progress` gets "prepare".
+/// Prepares a clip: makes base poses along it, in the order of their times. No pose of the clip is then
+/// farther than kPreparedTurn_rad from rest or from a base pose. There are at most 64 base poses, so that
+/// poses late in a long clip may be farther. Each is named by the clip and its second. The clip after
+/// `until_s` is left out. Fails as make_base_pose() does. Cost: make_base_pose() for each; `progress` reports
+/// the stage "prepare".
 engine::Result<proxy::BasePoses> make_base_poses(const engine::Context& context,
                                                  const proxy::BodyProxy& bound, const SegmentedSkin& skin,
                                                  const BodyMotion& motion,

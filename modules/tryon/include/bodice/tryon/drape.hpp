@@ -22,13 +22,14 @@ namespace bodice::inline v0_1::tryon {
 struct DrapeOptions {
   int frames = 120;          ///< number of frames, 1 or more
   double dt_s = 1.0 / 60.0;  ///< length of a frame, 0 or more
-  int kept_frames = 31;      ///< 2 or more: at most so many are kept for output, first and last included
+  int kept_frames = 31;      ///< most frames that are kept for output, first and last included; 2 or more
   std::optional<cloth::Fabric> fabric;  ///< absent: cotton
-  /// Options of the solver, except two: thickness_m is that below, and for a proxy of tier paper the response
-  /// is the paper's. Two sweeps keep the stretch of cotton under 5 % at 95 %.
+  /// Options of the solver. Two of them are replaced: thickness_m by the member below, and for a proxy of
+  /// tier paper the response by the paper's. Two sweeps keep the 95th percentile of cotton's stretch under 5
+  /// %.
   cloth::SolverOptions solver = {.substeps = 16, .iterations = 2, .doubled_when_stretched = true};
-  /// Distance between cloth and skin; absent: known_thickness_m(), and on a body that moves the most of it
-  /// and of the same over poses of the clip.
+  /// Distance that cloth keeps from the proxy, meters. Absent: known_thickness_m(); on a moving body, the
+  /// larger of it and the same over poses of the clip.
   std::optional<double> thickness_m;
   /// The motion of the body; if it is null, the body stands still. Garments are put on in the bind pose; a
   /// ramp that is not part of the result brings them to the clip's first frame. Frame k then shows second k
@@ -36,18 +37,20 @@ struct DrapeOptions {
   const BodyMotion* motion = nullptr;
   std::optional<double> ramp_s;  ///< zero or more; absent: suggested_ramp_s()
   /// Whether the proxy's tables are solved anew along the clip before its first frame (make_base_poses()),
-  /// in some tenths of a second for each such pose. Else they are carried from rest, and err by a fifth more.
+  /// which takes some tenths of a second for each base pose. Otherwise tables are carried from rest, and
+  /// their error is larger by a fifth.
   bool prepare_clip = true;
-  /// After its end the clip starts over; where its end does not meet its start, a seam leads back, and its
-  /// seconds count (closed_loop()). Else the last frame holds.
+  /// Whether the clip starts over after its end. Where its end is not its start, a seam leads back, which
+  /// lengthens each lap (closed_loop()). If false, the last pose holds.
   bool loop = false;
-  /// Pieces of a garment that lie this near to each other at the start stay together; 0: none do.
+  /// Pieces of a garment that are at most this far apart at the start are tacked together, meters; 0: none
+  /// is.
   double tack_m = kTackWithin_m;
-  /// Names of garments from the body outward: each is laid over those before it (order_layers()); empty: they
-  /// stay as they are.
+  /// Names of garments from the body outward. Each is laid over those before it (order_layers()). Empty:
+  /// garments stay as they are.
   std::vector<std::string> order;
-  /// Things beside the body that the garments meet, as they stand; they must outlive the drape. A body that
-  /// moves passes through them.
+  /// Things beside the body with which garments collide. They do not move, and must outlive the drape. A
+  /// moving body passes through them.
   std::span<const PreparedBody> props = {};
   std::optional<FitMap> fit_map;  ///< colors the garments by how they fit at the last frame
 };
@@ -56,11 +59,11 @@ struct DrapeOptions {
 struct DrapedGarment {
   std::string name;
   std::size_t vertices = 0, held = 0;
-  std::vector<PartEase> ease;       ///< how it lies at the end, by part of the body
+  std::vector<PartEase> ease;       ///< gap and strain at the end, by part of the body
   std::vector<TackedPiece> tacked;  ///< pieces that threads hold together
 };
 
-/// One kept frame of a body that moves, judged by the posed skin.
+/// One kept frame of a moving body, measured against the posed skin.
 struct KeptFrame {
   double time_s = 0.0;             ///< of the clip
   ProxyError proxy_error;          ///< within 30 mm of the skin
@@ -87,8 +90,9 @@ struct DrapeReport {
   double median_speed_m_s = 0.0;                ///< at the end
   bool finite = true;                           ///< whether all positions of all frames were finite
   std::uint64_t hash = 0;                       ///< hash of the final state, equal for any number of workers
-  double lifted_m = 0.0;  ///< how far the start was moved out of a proxy that is wider than the skin, at most
-  double ramp_s = 0.0;    ///< from the bind pose to the clip's first frame
+  /// Largest move of a vertex out of a proxy that is wider than the skin, at the start.
+  double lifted_m = 0.0;
+  double ramp_s = 0.0;          ///< from the bind pose to the clip's first frame
   std::size_t base_poses = 0;   ///< number of poses along the clip for which tables were solved anew
   std::vector<KeptFrame> kept;  ///< the kept frames of a body that moves
   std::vector<DrapedGarment> garments;
@@ -104,11 +108,13 @@ struct DrapeReport {
 /// The draped garments over time, and the numbers of the drape.
 struct DrapeResult {
   std::vector<io::GarmentTrack> garments;
-  rig::Clip clip;  ///< what the body played in all frames, laps and seams included; empty if it stands still
+  rig::Clip clip;  ///< the clip of all frames, with laps and seams; empty if the body stands still
   std::vector<std::vector<geometry::Vec3>> body_frames;  ///< skin of a body that moves at each kept frame, #V
   std::vector<std::vector<geometry::Ellipsoid>> proxy_frames;  ///< its ellipsoids at each kept frame, #E
-  proxy::BasePoses bases;  ///< base poses along the clip as far as it was played; empty if not prepared
-  std::optional<proxy::BodyProxy> proxy;  ///< of body and props, which the cloth met; absent without props
+  proxy::BasePoses
+      bases;  ///< base poses of the part of the clip that was played; empty if it was not prepared
+  /// Proxy of the body and props together, with which cloth collided; absent without props.
+  std::optional<proxy::BodyProxy> proxy;
   DrapeReport report;
 };
 

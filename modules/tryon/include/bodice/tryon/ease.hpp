@@ -1,4 +1,4 @@
-// How a garment lies on each part of a body: how far off, and how much stretched.
+// The ease of a garment on each part of a body: its gap to the skin and its strain.
 #pragma once
 
 #include <span>
@@ -16,16 +16,16 @@ struct PartEase {
   body::Part part = body::Part::kHead;         ///< the part that the cloth is nearest to
   double area_m2 = 0.0;                        ///< area of the cloth there, as it lies
   double gap_median_m = 0.0, gap_p95_m = 0.0;  ///< signed distance from the cloth to the skin
-  double strain_mean = 0.0,
-         strain_p95 = 0.0;  ///< elongation of the most stretched edge of a triangle, zero or more
-  double girth_m = 0.0;     ///< mean girth of the part: its area over its length
+  /// Elongation of the most stretched edge of a triangle, zero or more.
+  double strain_mean = 0.0, strain_p95 = 0.0;
+  double girth_m = 0.0;  ///< mean girth of the part: its area over its length
 };
 
-/// Measures a garment by the middles of its triangles. `rest` is the garment as it was made, `now` its
-/// positions (#V, meters), `part` the part of each vertex of `skin`, and `distance` the exact one to `skin`,
-/// both in the pose of now. Parts without cloth are left out; triangles with a position that is not finite
-/// are skipped. The result does not depend on the number of workers. Cost: a closest point a triangle, a few
-/// microseconds.
+/// Measures a garment at the centroids of its triangles. `rest` is the garment as it was made, and `now` its
+/// positions (#V, meters). `part` is the part of each vertex of `skin`, and `distance` the exact distance to
+/// `skin`, both in the pose of `now`. Parts without cloth are left out; triangles with a position that is not
+/// finite are skipped. The result does not depend on the number of workers. Cost: a closest point a triangle,
+/// a few microseconds.
 std::vector<PartEase> measure_ease(const engine::Context& context, const geometry::TriMesh& skin,
                                    std::span<const body::Part> part, const geometry::MeshDistance& distance,
                                    const geometry::TriMesh& rest, std::span<const geometry::Vec3> now);

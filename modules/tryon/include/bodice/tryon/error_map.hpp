@@ -11,8 +11,8 @@ namespace bodice::inline v0_1::tryon {
 
 /// Errors of the vertices of a skin, and colors for them.
 struct ErrorMap {
-  std::vector<double> error_m;               ///< #V: signed distance to the proxy, positive outside of it
-  double limit_m = 0.0;                      ///< error at which the colors end: 98 % of vertices have less
+  std::vector<double> error_m;  ///< #V: signed distance to the proxy, positive outside of it
+  double limit_m = 0.0;         ///< error at which the colors end; 98 % of the vertices have a smaller one
   std::vector<std::array<float, 3>> colors;  ///< #V, sRGB: blue inside the proxy, white on it, red outside
 };
 

@@ -14,13 +14,13 @@ class GarmentReach {
   /// Divides vertices into pieces by where they are now. Allocates. O(#V log #V).
   explicit GarmentReach(std::span<const geometry::Vec3> positions);
 
-  /// For vertices at `positions` (#V): a box around each piece, grown by kContact_m and by twice what
-  /// the piece moved by since the call before, since it may move so again. Valid until the next call.
+  /// The box of each piece for vertices at `positions` (#V). It is enlarged by kContact_m, and by twice the
+  /// piece's motion since the last call, because the piece may move as far again. Valid until the next call.
   /// Allocates nothing. O(#V).
   std::span<const geometry::Box> boxes(std::span<const geometry::Vec3> positions);
 
-  /// What is nearer than this to the cloth matters to it, meters: contacts, fillets between ellipsoids, and
-  /// what relief adds to them.
+  /// The distance within which the body matters to cloth, meters. It covers contacts, fillets between
+  /// ellipsoids, and the height of relief.
   static constexpr double kContact_m = 0.06;
 
  private:

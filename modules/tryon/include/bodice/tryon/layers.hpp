@@ -12,10 +12,10 @@
 namespace bodice::inline v0_1::tryon {
 
 /// Moves garments away from the skin until each lies over those named before it: "shirt", "trousers" tucks
-/// the shirt in. A file's name does without folder and ending. Garments that are not named stay as they are.
-/// What lies up to 4 cm below an inner garment is moved to `gap_m` above it; garments that are farther
-/// through each other still cross afterwards. Fails with kInvalidArgument where a name is that of no garment
-/// or stands twice. Cost: some closest points a vertex, up to 40 times.
+/// the shirt in. The name of a file may lack folder and extension. Garments that are not named stay as they
+/// are. A vertex up to 4 cm below an inner garment is moved to `gap_m` above it. Garments that pass deeper
+/// through each other still cross afterwards. Fails with kInvalidArgument where a name matches no garment or
+/// is repeated. Cost: some closest points a vertex, up to 40 times.
 engine::Result<std::vector<WornGarment>> order_layers(const engine::Context& context,
                                                       const geometry::MeshDistance& skin,
                                                       const std::vector<std::string>& order,

@@ -1,4 +1,4 @@
-// A body that moves: its rig played through a clip, and what is attached to its skin.
+// A moving body: its rig, which plays a clip, and points that are attached to its skin.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace bodice::inline v0_1::tryon {
 struct BodyMotion {
   rig::Rig rig;
   rig::Clip clip;
-  double arms_out_deg = 0.0;  ///< that of MotionOptions for a made motion, else 0
+  double arms_out_deg = 0.0;  ///< rigging::MotionOptions::arms_out_deg of a made motion, else 0
 };
 
 /// Checks that the rig and its clip are valid and fit a skin of so many vertices. Fails with
@@ -26,8 +26,9 @@ struct BodyMotion {
 engine::Result<void> check(const BodyMotion& motion, std::size_t vertices);
 
 /// Joints over time: a ramp from the bind pose, in which garments are put on, to the clip's first frame, and
-/// then the clip. Times are seconds of the clip; the ramp ends at 0, with the clip's velocities there. After
-/// its end the clip starts over if `playback` loops, else its last frame holds.
+/// then the clip. Times are seconds of the clip. The ramp has negative times and ends at 0, with the
+/// velocities that the clip has there. After its end the clip starts over if `playback` loops; otherwise its
+/// last pose holds.
 class MotionPlayer {
  public:
   /// `ramp_s` is the length of the ramp; zero jumps. Keeps a reference to `motion`. Allocates.
@@ -45,14 +46,14 @@ class MotionPlayer {
   std::vector<rig::LocalTransform> bind_, local_, ahead_;  // #J; the last two are scratch
 };
 
-/// The ramp that brings a skin to the clip's first frame with no vertex faster than a walking hand, between a
-/// quarter of a second and two; zero if the clip begins in the bind pose. O(#V).
+/// The length of a ramp to the clip's first frame on which no vertex is faster than a walking hand, seconds.
+/// It is between a quarter of a second and two, and zero if the clip begins in the bind pose. O(#V).
 double suggested_ramp_s(const engine::Context& context, const BodyMotion& motion,
                         std::span<const geometry::Vec3> skin);
 
-/// The motion with a clip that can be played over and over: where its end does not meet its start, a seam
-/// leads back (rig::close_loop()) on which no vertex moves much faster than at the clip's ends or than a
-/// walking hand, for at most two seconds. O(#V).
+/// The motion with a clip that can loop. Where the clip's end is not its start, a seam of at most two seconds
+/// leads back (rig::close_loop()). On it no vertex is much faster than at the clip's ends, or than a walking
+/// hand. O(#V).
 BodyMotion closed_loop(const engine::Context& context, const BodyMotion& motion,
                        std::span<const geometry::Vec3> skin);
 

@@ -25,11 +25,12 @@ using BodySource = std::variant<BodyFile, synth::BodyOptions, io::ImportedMesh>;
 struct PreparationOptions {
   SegmentOptions segment;
   fitting::FitOptions fit;  ///< on_improved and on_part are replaced
-  /// With garments, only the parts within region_margin_m of them are fitted; the others cost nothing.
+  /// Garments that limit the fit: only parts within region_margin_m of them are fitted. Empty: all parts are.
   std::vector<geometry::TriMesh> garments;
   double region_margin_m = 0.05;
-  /// The skin gets a rig (give_rig()), ellipsoids are found on the flexed skin, and proxies are bound to the
-  /// rig. Fewer of them are published, since binding each takes a tenth of a second.
+  /// Whether the body will move. The skin then gets a rig (give_rig()), ellipsoids are found on the flexed
+  /// skin, and proxies are bound to the rig. Fewer proxies are published, because each binding takes a tenth
+  /// of a second.
   bool bind = false;
 };
 

@@ -29,7 +29,7 @@ struct SegmentedSkin {
   io::ImportedMesh input;
   anatomy::Anatomy anatomy;
   std::shared_ptr<const geometry::MeshDistance> distance;  ///< exact distance to input.skin
-  std::shared_ptr<const rig::Rig> rig;                     ///< what moves input.skin, if the file has it
+  std::shared_ptr<const rig::Rig> rig;  ///< the rig of input.skin, null where there is none
   std::vector<engine::StageTime> stages;
   std::vector<engine::Warning> warnings;  ///< warnings of import and anatomy
 };
@@ -67,7 +67,7 @@ engine::Result<io::ImportedMesh> repair_body(const engine::Context& context, con
 engine::Result<SegmentedSkin> segment_mesh(const engine::Context& context, io::ImportedMesh input,
                                            const SegmentOptions& options, const Progress& progress = {});
 
-/// The skin in the form that fitting takes. It refers to `skin` and is valid as long.
+/// A view of the skin in the form that fitting needs. It refers to `skin` and is valid as long as `skin`.
 fitting::LabeledSkin labeled(const SegmentedSkin& skin);
 
 /// Fits a proxy to a segmented skin. Fails as fitting::fit() does. Cost for 89 ellipsoids on two cores: 13 ms
@@ -75,9 +75,9 @@ fitting::LabeledSkin labeled(const SegmentedSkin& skin);
 engine::Result<PreparedBody> fit_proxy(const engine::Context& context, SegmentedSkin skin,
                                        const fitting::FitOptions& options, const Progress& progress = {});
 
-/// The same for a body that will move: the proxy is bound to the skin's rig, and its ellipsoids are found on
-/// the flexed skin, as long as there is a rig. Fails as fit_proxy() and binding::bind() do.
-/// Cost: that of both.
+/// The same for a body that will move: ellipsoids are found on the flexed skin, and the proxy is bound to the
+/// skin's rig. Without a rig it is fit_proxy(). Fails as fit_proxy() and binding::bind() do. Cost: that of
+/// both.
 engine::Result<PreparedBody> fit_bound_proxy(const engine::Context& context, SegmentedSkin skin,
                                              fitting::FitOptions options, const Progress& progress = {});
 

@@ -11,14 +11,14 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// Reads a thing in the unit, axes and coordinates of the body's file and fits it as io::Shape::kAny: with
-/// tier relief where the body has it, else tight, and to the body's scale. Of `options` the number of
-/// ellipsoids, the target error and the time budget are used. Fails as segment_file() and fit_proxy() do.
+/// Reads a thing in the unit, axes and coordinates of the body's file, and fits it as io::Shape::kAny at the
+/// body's scale. Its tier is relief where the body's is, else tight. From `options` it uses the number of
+/// ellipsoids, the target error and the time budget. Fails as segment_file() and fit_proxy() do.
 engine::Result<PreparedBody> read_prop(const engine::Context& context, const std::filesystem::path& file,
                                        const PreparedBody& body, const fitting::FitOptions& options,
                                        const Progress& progress = {});
 
-/// The same of a mesh in memory, in meters with y up, where the body is.
+/// The same for a mesh in memory, in meters with y up, in the body's coordinates.
 engine::Result<PreparedBody> make_prop(const engine::Context& context, const geometry::TriMesh& mesh,
                                        const PreparedBody& body, const fitting::FitOptions& options);
 
@@ -28,7 +28,7 @@ engine::Result<proxy::BodyProxy> with_props(const proxy::BodyProxy& body,
 
 /// Cloth inside one prop, by the exact signed distance to its surface.
 struct PropReport {
-  std::string name;  ///< the file that it came from
+  std::string name;  ///< the file that the prop was read from
   std::size_t ellipsoids = 0;
   fitting::FitAccuracy accuracy;
   std::size_t over_1mm = 0;  ///< particles deeper than 1 mm at the last frame
@@ -40,10 +40,11 @@ struct PropReport {
 
 /// The reports of the props before the first frame.
 std::vector<PropReport> describe(std::span<const PreparedBody> props);
-/// Adds a frame's depth of the particles, #P, in each prop, and makes it that of the end.
+/// Measures the depth of the particles (#P) in each prop after a frame, and updates the reports: the maximum,
+/// and the values of the last frame.
 void add_frame(const engine::Context& context, int frame, std::span<const geometry::Vec3> positions,
                std::span<const PreparedBody> props, std::vector<PropReport>& reports);
-/// Sets the share of the cloth inside each prop.
+/// Sets PropReport::pierced_share of each prop.
 void add_cloth(const engine::Context& context, std::span<const geometry::Vec3> positions,
                std::span<const geometry::Triangle> triangles, std::span<const PreparedBody> props,
                std::vector<PropReport>& reports);

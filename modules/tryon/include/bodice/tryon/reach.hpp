@@ -19,11 +19,11 @@ namespace bodice::inline v0_1::tryon {
 engine::Result<std::uint32_t> reachable_parts(const engine::Context& context, const SegmentedSkin& skin,
                                               std::span<const geometry::TriMesh> garments, double margin_m);
 
-/// The ellipsoids, with their tables, within `margin_m` of any garment, in their order. Consider a point
-/// within a of a garment, with the whole proxy's closest ellipsoid within margin_m - a of the point: there
-/// proxy_distance() has the same bits as for the whole proxy. A garment that moves farther than the margin
-/// may meet nothing. Fails with kUnusableGeometry when nothing is within reach, and as reachable_parts().
-/// Cost: O(#triangles #ellipsoids), a sphere test for most.
+/// A proxy of the ellipsoids, with their tables, within `margin_m` of any garment, in their order. At a point
+/// within a of a garment, proxy_distance() has the same bits as for the whole proxy if the distance to the
+/// whole proxy's closest ellipsoid is at most margin_m - a. A garment that moves farther than the margin may
+/// pass through the missing part. Fails with kUnusableGeometry when nothing is within reach, and as
+/// reachable_parts(). Cost: O(#triangles #ellipsoids), a sphere test for most.
 engine::Result<proxy::BodyProxy> within_reach(const engine::Context& context, const proxy::BodyProxy& proxy,
                                               std::span<const geometry::TriMesh> garments, double margin_m);
 

@@ -16,8 +16,8 @@ struct RunInfo {
   std::uint64_t seed = 0;
   std::string program;               ///< name and version of the program
   std::vector<std::string> command;  ///< word by word, as typed
-  /// Whether the proxy was reduced after it was measured (within_reach); the accuracy is then the whole
-  /// body's.
+  /// Whether the proxy was cropped by within_reach() after its accuracy was measured. The accuracy is then
+  /// that of the whole body.
   bool cropped = false;
 };
 

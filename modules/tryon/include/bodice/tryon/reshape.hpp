@@ -20,12 +20,12 @@ struct ReshapedBody {
 /// Whether positions are a shape of this skin: one for each vertex, and finite. Fails with kInvalidArgument.
 engine::Result<void> check_shape(const SegmentedSkin& skin, std::span<const geometry::Vec3> positions);
 
-/// Carries a proxy to another shape of its skin: `positions` are those of the skin's vertices (#V). Each
-/// ellipsoid goes by the affine map that its skin takes best; tables are solved anew for it, warm; joints
-/// move with the skin around them, and a bound proxy is bound anew, without its base poses. Parts and
-/// landmarks stay with their vertices. Fails with kInvalidArgument for another number of positions or ones
-/// that are not finite, with kUnusableGeometry where a shape has no stature, and with kCanceled. The same
-/// bits for any number of workers. Takes some .3 s of one core, .5 s with a binding.
+/// Carries a proxy to another shape of its skin; `positions` are those of the skin's vertices (#V). The
+/// affine map that fits the motion of its skin best carries each ellipsoid. Tables are solved anew from the
+/// present ones. Joints move with the skin around them. A bound proxy is bound anew, without its base poses.
+/// Parts and landmarks stay with their vertices. Fails with kInvalidArgument for another number of positions
+/// or ones that are not finite, with kUnusableGeometry where a shape has no stature, and with kCanceled. The
+/// same bits for any number of workers. Takes some .3 s of one core, .5 s with a binding.
 engine::Result<ReshapedBody> reshape_body(const engine::Context& context, const SegmentedSkin& skin,
                                           const proxy::BodyProxy& proxy,
                                           std::span<const geometry::Vec3> positions);

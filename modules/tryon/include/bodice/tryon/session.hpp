@@ -9,8 +9,8 @@
 //       session.positions(vertices);
 //     }
 //
-// With SessionOptions::moves the bodies play clips: session.play({.motion = "walk"}). A clip is carried over
-// to each body that comes, and where the joints leave what the proxy's tables carry, these are solved anew
+// With SessionOptions::moves the bodies play clips: session.play({.motion = "walk"}). The clip is retargeted
+// to each submitted body. In poses far from all of which there are tables, the proxy's tables are solved anew
 // behind the frames.
 #pragma once
 
@@ -38,14 +38,14 @@ struct SessionOptions {
   std::optional<double> region_margin_m;
   /// Bodies get a rig, and proxies that are bound to it, so that they can play clips.
   bool moves = false;
-  /// Tables of a body that moves are solved anew behind the frames where its joints are far from those that
-  /// it has tables for. With one worker in latency mode nothing runs behind, and this does nothing.
+  /// Whether tables are solved anew behind the frames when the joints are far from every pose that has
+  /// tables. With one worker in latency mode nothing runs behind the frames, and there are no refits.
   bool refits = true;
   std::optional<cloth::Fabric> fabric;  ///< absent: cotton
-  cloth::SolverOptions solver;  ///< the defaults: eight substeps for a runtime, not the sixteen of drape()
+  cloth::SolverOptions solver;  ///< the defaults have eight substeps a frame, those of drape() sixteen
 };
 
-/// A body as the frames use it. Each refinement of its proxy is a new one, with the same skin.
+/// A body that frames use. Each refinement of its proxy is a new LiveBody with the same skin.
 struct LiveBody {
   std::shared_ptr<const SegmentedSkin> skin;
   proxy::BodyProxy proxy;
@@ -60,15 +60,15 @@ struct PlayOptions {
   std::optional<double> ramp_s;
 };
 
-/// What a frame did.
+/// The outcome of a frame.
 struct FrameOutcome {
   engine::FrameTiming timing;
   cloth::FrameReport cloth;
   bool has_body = false;
   std::uint64_t proxy_hash = 0;  ///< hash of the proxy in use
   bool plays = false;            ///< whether a clip moves the body
-  double clip_s = 0.0;           ///< time of the clip that is shown; where it loops, it goes on
-  double ramp_left_s = 0.0;      ///< above 0: a ramp still leads to the clip's pose
+  double clip_s = 0.0;           ///< shown time of the clip, seconds; it goes on rising where the clip loops
+  double ramp_left_s = 0.0;      ///< seconds that are left of a ramp to the clip's pose
   bool took_refit = false;       ///< whether tables of a further pose came into use
 };
 
@@ -92,11 +92,12 @@ class Session {
   /// does.
   engine::Result<void> dress(const std::vector<WornGarment>& garments);
 
-  /// Plays a clip from its begin: a made motion or one of a file, carried over to the body's skeleton behind
-  /// the frames. Garments are brought to its first pose by a ramp from the bind pose, or from the pose in
-  /// force if another clip is played. Bodies submitted later play it as well, from where it is then. The
-  /// ticket has the error of a clip that is not found, or is done where there is no body yet (its own ticket
-  /// then has it). Without SessionOptions::moves it fails with kInvalidArgument.
+  /// Plays a clip from its start: a made motion or a clip of a file, retargeted to the body's skeleton behind
+  /// the frames. A ramp brings the body and its garments to the clip's first pose, from the bind pose, or
+  /// from the current pose if another clip is played. Bodies that are submitted later play the clip from the
+  /// time that it has reached. The ticket reports the error of a clip that is not found. If there is no body
+  /// yet, the ticket is done at once, and the body's own ticket reports that error. Without
+  /// SessionOptions::moves it fails with kInvalidArgument.
   engine::Ticket play(MotionChoice choice, const PlayOptions& options = {});
   /// Frames go on, but the body stays in its pose until resume().
   void pause() noexcept;
@@ -106,13 +107,13 @@ class Session {
   /// no clip is played.
   void seek(double time_s, double ramp_s = 0.5);
 
-  /// Gives the body in use another shape: `positions` are those of its skin's vertices (#V of
-  /// LiveBody::skin, meters, bind pose), as a slider moves them. Behind the frames its ellipsoids are carried
-  /// there, its tables are solved anew (reshape_body()), and it takes effect at a boundary. From then on the
-  /// surface, the skin and held vertices go over to it within a sixth of a second, or longer where they would
-  /// move faster than .1 m/s; garments stay on.
-  /// One shape is worked on at a time; of those that wait the newest counts. Fails with kInvalidArgument for
-  /// another number of vertices, positions that are not finite, or where there is no body.
+  /// Gives the body in use another shape: `positions` are those of its skin's vertices (#V of LiveBody::skin,
+  /// meters, bind pose), as a slider moves them. Behind the frames its ellipsoids are carried there, its
+  /// tables are solved anew (reshape_body()), and it takes effect at a boundary. From then on, surface, skin
+  /// and held vertices move to the new shape within a sixth of a second, or longer where they would be faster
+  /// than 0.1 m/s; garments stay on. One shape is computed at a time; of the waiting ones only the newest is
+  /// kept. Fails with kInvalidArgument for another number of vertices, positions that are not finite, or
+  /// where there is no body.
   engine::Result<void> reshape(std::vector<geometry::Vec3> positions);
 
   /// Runs a frame boundary, then dt_s of the clip and of cloth. Allocates nothing once warm, except in the

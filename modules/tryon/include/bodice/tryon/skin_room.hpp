@@ -1,5 +1,5 @@
-// Room between surfaces of the skin that face each other, by which crossings of cloth are judged: where the
-// body leaves less than two layers need, no cloth can be both outside of the skin and uncrossed.
+// The room between surfaces of the skin that face each other. Where it is less than two layers of cloth need,
+// cloth cannot be outside of the skin without crossings. Crossings are classified by this.
 #pragma once
 
 #include <array>

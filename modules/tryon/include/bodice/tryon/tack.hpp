@@ -1,5 +1,5 @@
-// Pieces of one garment that lie on each other and no seam joins: a file's straps, pockets, buttons, or a
-// bodice and a skirt that overlap.
+// Tacks between pieces of one garment that lie on each other without a seam: straps, pockets or buttons of a
+// file, or a bodice and a skirt that overlap.
 #pragma once
 
 #include <cstddef>
@@ -21,18 +21,18 @@ struct TackedPiece {
   std::size_t points = 0;  ///< vertices of the piece that threads hold
 };
 
-/// What holds the pieces of a garment together.
+/// The tacks of a garment, and the pieces that they hold.
 struct Tacking {
   std::vector<cloth::Tack> tacks;   ///< pairs of vertices of the garment
   std::vector<TackedPiece> pieces;  ///< by piece, then by what it lies on
 };
 
-/// Finds where pieces of a garment lie within `within_m` of another one. The rim of a piece is tacked to the
-/// triangle that each of its vertices is nearest to, and a small piece, such as a button, at all its
-/// vertices. Large pieces are tacked only at seams: rims that lie on another piece for a third of their
-/// length, or on another layer of their own piece that ends there, too, for three fifths.
-/// Nothing is tacked with a distance of 0. Deterministic. Cost: a closest point for each vertex of a rim,
-/// microseconds, and the distances along the cloth near it.
+/// Finds the tacks between pieces of a garment that lie within `within_m` of each other. Each vertex of a
+/// piece's rim is tacked to the triangle nearest to it; a small piece, such as a button, is tacked at all its
+/// vertices. Large pieces are tacked at seams only. A rim is a seam if a third of it lies on another piece,
+/// or three fifths of it on another layer of its own piece that ends there as well. Nothing is tacked with a
+/// distance of 0. Deterministic. Cost: a closest point for each vertex of a rim, microseconds, and the
+/// distances along the cloth near it.
 Tacking find_tacks(const engine::Context& context, const geometry::TriMesh& garment, double within_m);
 
 }  // namespace bodice::tryon

@@ -23,8 +23,8 @@ struct WornGarment {
   std::string name;
   geometry::TriMesh mesh;             ///< meters, y up
   std::vector<geometry::Index> held;  ///< vertices that stay with the body
-  std::shared_ptr<const io::Look> look =
-      nullptr;  ///< what io::import_garment() read of it, for GLB; null: none
+  /// Its look from io::import_garment(), for GLB; null: none.
+  std::shared_ptr<const io::Look> look = nullptr;
 };
 
 /// All garments as one mesh for one solver, with the first vertex of each.
@@ -48,16 +48,16 @@ std::vector<std::vector<TackedPiece>> add_tacks(const engine::Context& context,
 /// The given fabric, or else cotton.
 engine::Result<cloth::Fabric> fabric_or_cotton(const std::optional<cloth::Fabric>& fabric);
 
-/// The distance that cloth keeps from a proxy by what is known: half the thickness of a cloth, and the error
-/// of the proxy where the garment lies. That is the 99th percentile of how far the skin below the garment's
-/// vertices stands out of the proxy (both at rest); at least 1 mm, at most 8. The size of the triangles does
-/// not matter, because contact covers them (cloth::SolverOptions::face_contact). Cost: a closest point of the
-/// skin and a query a vertex, some microseconds.
+/// The distance that cloth should keep from a proxy: half the thickness of a cloth, plus the error of the
+/// proxy below the garment. This error is the 99th percentile of how far skin below the garment's vertices
+/// lies outside of the proxy, both at rest. The result is at least 1 mm and at most 8 mm. The size of the
+/// triangles does not matter, because contact covers them (cloth::SolverOptions::face_contact). Cost: a
+/// closest point of the skin and a query a vertex, some microseconds.
 double known_thickness_m(const engine::Context& context, const geometry::TriMesh& garment,
                          const geometry::MeshDistance& skin, const collision::Collider& collider);
 
-/// The positions of the held vertices (#held, world meters). Those inside the collider are pushed out of it,
-/// as a waistband lies on the body.
+/// The positions of the held vertices (#held, world meters). Vertices inside the collider are pushed out to
+/// its surface.
 std::vector<geometry::Vec3> held_positions(const Wardrobe& wardrobe, const collision::Collider& collider,
                                            double thickness_m);
 

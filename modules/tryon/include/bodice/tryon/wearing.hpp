@@ -1,4 +1,4 @@
-// Garments that are made for a body, and the vertices by which it holds one.
+// Garments that are made for a body, and the vertices that the body holds.
 #pragma once
 
 #include <vector>
@@ -15,9 +15,10 @@ namespace bodice::inline v0_1::tryon {
 engine::Result<WornGarment> make_garment(const engine::Context& context, const SegmentedSkin& skin,
                                          const synth::GarmentOptions& options = {});
 
-/// The vertices that the wearer holds. A piece that reaches above the armpits rests on the shoulders and
-/// needs none. A lower one (a skirt, trousers) is held by its waistband, the boundary loop closest to the
-/// head, as by elastic or a belt. Pieces far from the body are not held.
+/// The vertices of a garment that stay with the body. A piece that reaches above the armpits rests on the
+/// shoulders and has none. A lower piece (a skirt, trousers) is held at its waistband, the boundary loop
+/// closest to the head, as by elastic or a belt. Pieces far from the body are not held. Cost: a closest point
+/// a vertex.
 std::vector<geometry::Index> held_vertices(const geometry::TriMesh& garment, const SegmentedSkin& body);
 
 }  // namespace bodice::tryon
