@@ -11,7 +11,7 @@
 namespace bodice::inline v0_1::tryon {
 namespace {
 
-/// The tables of a pose in the form that a refit takes.
+/// The tables of a pose, as the source from which a refit starts.
 class WarpedTables final : public fitting::PosedTables {
  public:
   explicit WarpedTables(const binding::TableWarp& warp) : warp_(warp) {}

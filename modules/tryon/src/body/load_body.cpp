@@ -78,7 +78,7 @@ engine::Result<LoadedBody> load_rigged_body(const engine::Context& context, cons
   return loaded;
 }
 
-engine::Error of_body(engine::Error error, const io::ImportedMesh& body) {
+engine::Error with_body_name(engine::Error error, const io::ImportedMesh& body) {
   error.message = (body.file.empty() ? "The given body" : body.file.string()) + ": " + error.message;
   return error;
 }

@@ -6,7 +6,7 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// The repaired skin from any source, in meters. Its stages are "load" and "check".
+/// Loads a body from any source and repairs its skin, in meters. Its stages are "load" and "check".
 engine::Result<io::ImportedMesh> load_body(const engine::Context& context, const BodySource& source,
                                            const io::ImportOptions& options);
 
@@ -15,10 +15,11 @@ struct LoadedBody {
   io::ImportedMesh body;
   std::shared_ptr<const rig::Rig> rig;
 };
+/// Loads a body with its rig. A rig that cannot be used gives the warning `rig-not-usable`.
 engine::Result<LoadedBody> load_rigged_body(const engine::Context& context, const BodySource& source,
                                             const io::ImportOptions& options);
 
-/// The error with the name of its body in front.
-engine::Error of_body(engine::Error error, const io::ImportedMesh& body);
+/// The same error, with the name of the body's file at the beginning of its message.
+engine::Error with_body_name(engine::Error error, const io::ImportedMesh& body);
 
 }  // namespace bodice::tryon

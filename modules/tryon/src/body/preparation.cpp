@@ -27,7 +27,7 @@ Result<std::uint32_t> choose_region(const Context& context, const PreparationOpt
   const auto reached = reachable_parts(context, skin, options.garments, options.region_margin_m);
   if (!reached) return reached.error();
   if (const std::uint32_t parts = options.fit.parts & *reached) return parts;
-  return of_body(
+  return with_body_name(
       {engine::ErrorCode::kUnusableGeometry, "No part of the body is within reach of the garments.",
        "Check that they are in the body's coordinates and units, or raise the margin."},
       skin.input);
@@ -37,8 +37,8 @@ binding::SkinnedBody skinned(const SegmentedSkin& skin) {
   return {skin.input.skin, skin.rig->skeleton, skin.rig->weights, skin.anatomy.part};
 }
 
-/// Publishes the proxies of a body. A proxy is published once, even if it is both the last iterate of a tier
-/// and its result.
+/// Publishes the proxies of a body. A proxy is published once only, although it may be both the last
+/// refinement of a tier and its result.
 class Publisher {
  public:
   Publisher(OnProxy on_proxy, bool bind) : on_proxy_(std::move(on_proxy)), bind_(bind) {}
@@ -46,7 +46,7 @@ class Publisher {
   void begin(Skin skin) { skin_ = std::move(skin), last_.reset(); }
   bool binds() const { return bind_; }
 
-  /// Publishes a proxy, bound where proxies are to be, and returns the published one.
+  /// Publishes a proxy, bound to the rig if the options request it, and returns the published proxy.
   Result<BodyProxy> publish(const Context& context, const BodyProxy& proxy) {
     if (last_ && last_->hash() == proxy.hash()) return *published_;
     auto bound = bind_ ? binding::bind(context, proxy, skinned(*skin_)) : Result<BodyProxy>(proxy);
@@ -57,7 +57,7 @@ class Publisher {
     return bound;
   }
 
-  /// Publishes the last proxy with these parts in place of its own.
+  /// Publishes the last proxy with the ellipsoids of these parts replaced.
   Result<void> publish_part(const Context& context, proxy::Tier tier, const fitting::FittedPart& part) {
     BodyProxy::Data data{.tier = tier,
                          .stature_m = last_->stature_m(),
@@ -83,28 +83,28 @@ Result<fitting::FitResult> fit_parts(const Context& context, const SegmentedSkin
                                      fitting::FitOptions options, std::uint32_t parts, Publisher& publisher) {
   options.parts = parts;
   options.on_improved = [&](const BodyProxy& better) {
-    // Binding takes longer than a plain proxy is in force.
+    // A plain proxy is replaced sooner than it could be bound.
     if (!publisher.binds() || !better.relief().empty()) static_cast<void>(publisher.publish(context, better));
   };
   std::vector<geometry::Vec3> flexed;
   if (publisher.binds()) flexed = binding::flexed_skin(context, skinned(skin), skin.anatomy.part);
   options.flexed = flexed;
   const proxy::Tier tier = options.tier.value_or(proxy::Tier::kSolid);  // only plain tiers give parts
-  // A part that makes no proxy is skipped. If its fault is no accident, the fit fails as well.
+  // A part that gives no valid proxy is skipped; where the cause persists, the fit fails as well.
   options.on_part = [&](const fitting::FittedPart& part) {
     if (!publisher.binds()) static_cast<void>(publisher.publish_part(context, tier, part));
   };
   auto fit = fitting::fit(context, labeled(skin), options);
-  if (!fit) return of_body(std::move(fit).error(), skin.input);
+  if (!fit) return with_body_name(std::move(fit).error(), skin.input);
   auto published = publisher.publish(context, fit->proxy);
-  if (!published) return of_body(std::move(published).error(), skin.input);
+  if (!published) return with_body_name(std::move(published).error(), skin.input);
   fit->proxy = std::move(published).value();
   return fit;
 }
 
 using Options = std::shared_ptr<const PreparationOptions>;
 
-/// The tasks from a source to a segmented skin, which has a rig where proxies are to be bound.
+/// Adds the tasks from a source to a segmented skin, which gets a rig if proxies are to be bound.
 Result<engine::Output<Skin>> add_skin_tasks(engine::GraphBuilder& builder,
                                             const engine::Output<BodySource>& source, const Options& set) {
   if (!set->bind) {
@@ -153,20 +153,20 @@ Result<Preparation> Preparation::make(PreparationOptions options, OnProxy on_pro
       "coarse proxy",
       [publisher](const Context& c, const Skin& on, const std::uint32_t& parts) -> Result<void> {
         auto enclosed = fitting::enclose_parts(c, labeled(*on), parts);
-        if (!enclosed) return of_body(std::move(enclosed).error(), on->input);
+        if (!enclosed) return with_body_name(std::move(enclosed).error(), on->input);
         publisher->begin(on);
         if (auto published = publisher->publish(c, *enclosed); !published)
-          return of_body(std::move(published).error(), on->input);
+          return with_body_name(std::move(published).error(), on->input);
         return {};
       },
       *skin, region);
-  // Solid ellipsoids come next, part by part, since they are ready in a tenth of a second and do not leak.
+  // Solid ellipsoids come next, part by part: they take a tenth of a second and have no leaks.
   auto solid = builder.add(
       "solid parts",
       [set, publisher](const Context& c, const Skin& on, const std::uint32_t& parts) -> Result<void> {
         if (set->fit.tier.value_or(proxy::Tier::kRelief) <= proxy::Tier::kSolid) return {};
-        // Solid ellipsoids obey the limits of the final fit, because frames before it have no more time than
-        // those after it.
+        // The limits of the final fit hold for solid ellipsoids as well, because earlier frames have no more
+        // time than later ones.
         auto fit = fit_parts(c, *on,
                              {.tier = proxy::Tier::kSolid,
                               .max_ellipsoids = set->fit.max_ellipsoids,

@@ -21,8 +21,8 @@ void report(const Progress& progress, std::string_view stage, double fraction) {
   if (progress) progress(stage, fraction);
 }
 
-engine::Result<SegmentedSkin> segment_as_it_is(const engine::Context& context, io::ImportedMesh input,
-                                               const SegmentOptions& options, const Progress& progress) {
+engine::Result<SegmentedSkin> segment_unrefined(const engine::Context& context, io::ImportedMesh input,
+                                                const SegmentOptions& options, const Progress& progress) {
   report(progress, "segment", 0.0);
   engine::GraphBuilder builder;
   auto mesh = builder.input<io::ImportedMesh>("body");
@@ -62,9 +62,9 @@ engine::Result<SegmentedSkin> segment_file(const engine::Context& context, const
   report(progress, "load", 0.0);
   auto input = io::import_rigged_body(context, file, options.import);
   if (!input) return std::move(input).error();
-  // The weights of a rig are those of the file's vertices.
+  // A skin with a rig is not refined, because the rig has weights for the file's vertices alone.
   auto skin =
-      (input->rig ? segment_as_it_is : segment_mesh)(context, std::move(input->body), options, progress);
+      (input->rig ? segment_unrefined : segment_mesh)(context, std::move(input->body), options, progress);
   if (skin && input->rig) skin->rig = std::make_shared<const rig::Rig>(std::move(input->rig).value());
   if (skin && !input->rig && input->rig.error().code != engine::ErrorCode::kNotFound)
     skin->warnings.push_back({"rig-not-usable", "", input->rig.error().message, input->rig.error().remedy});
@@ -79,7 +79,7 @@ engine::Result<SegmentedSkin> segment_builtin(const engine::Context& context, co
 engine::Result<SegmentedSkin> segment_mesh(const engine::Context& context, io::ImportedMesh input,
                                            const SegmentOptions& options, const Progress& progress) {
   if (input.shape == io::Shape::kAny) refine_thing(input);
-  return segment_as_it_is(context, std::move(input), options, progress);
+  return segment_unrefined(context, std::move(input), options, progress);
 }
 
 fitting::LabeledSkin labeled(const SegmentedSkin& skin) {
@@ -94,7 +94,7 @@ engine::Result<PreparedBody> fit_proxy(const engine::Context& context, Segmented
                                        const fitting::FitOptions& options, const Progress& progress) {
   report(progress, "fit", 0.0);
   auto fit = fitting::fit(context, labeled(skin), options);
-  if (!fit) return of_body(std::move(fit).error(), skin.input);
+  if (!fit) return with_body_name(std::move(fit).error(), skin.input);
   return PreparedBody{.skin = std::move(skin), .fit = std::move(fit).value()};
 }
 
@@ -112,7 +112,7 @@ engine::Result<PreparedBody> fit_bound_proxy(const engine::Context& context, Seg
   auto bound = binding::bind(context, body->fit.proxy,
                              {body->skin.input.skin, rig->skeleton, rig->weights, body->skin.anatomy.part});
   timer.stop();
-  if (!bound) return of_body(std::move(bound).error(), body->skin.input);
+  if (!bound) return with_body_name(std::move(bound).error(), body->skin.input);
   body->fit.proxy = std::move(bound).value();
   return body;
 }

@@ -13,7 +13,7 @@ using geometry::kNoIndex;
 using geometry::Triangle;
 using geometry::TriMesh;
 
-/// The square root of the area over the longest edge that stays: 2 cm for a chair.
+/// The longest edge that stays is the square root of the area over this: 2 cm for a chair.
 constexpr double kAcross = 60.0;
 /// A surface with more vertices is fine enough, however long some of its edges are.
 constexpr std::size_t kFineVertices = 100'000;
@@ -30,7 +30,7 @@ std::vector<Index> add_middles(const geometry::MeshEdges& edges, double limit, T
   return middle;
 }
 
-/// Adds what a triangle becomes. `m` are the middles of its edges 01, 12 and 20.
+/// Adds the triangles into which a triangle is split. `m` has the middles of its edges 01, 12 and 20.
 void split(const Triangle& t, const std::array<Index, 3>& m, std::vector<Triangle>& out) {
   int count = 0, first = 0;  // the edge after one that stays, or the only one that is split
   for (int k = 0; k < 3; ++k) {

@@ -16,10 +16,10 @@ namespace {
 
 using geometry::Vec3;
 
-/// Skin within about this of a joint moves it, in statures.
+/// The deviation of the Gaussian by which skin near a joint moves it, in statures.
 constexpr double kJointReach = 0.05;
 
-engine::Error unfit(std::string what, std::string remedy) {
+engine::Error bad_shape(std::string what, std::string remedy) {
   return {engine::ErrorCode::kInvalidArgument, std::move(what), std::move(remedy)};
 }
 
@@ -29,7 +29,8 @@ double height_of(std::span<const Vec3> positions) {
   return box.size().y();
 }
 
-/// How far the skin around a joint has moved; none of its skin there: as far as its parent.
+/// The mean displacement of the skin around each joint. A joint without skin of its own nearby moves as its
+/// parent.
 std::vector<Vec3> joint_moves(const SegmentedSkin& skin, std::span<const Vec3> positions) {
   const auto& joints = skin.rig->skeleton.joints;
   const rig::SkinWeights& weights = skin.rig->weights;
@@ -56,7 +57,7 @@ std::vector<Vec3> joint_moves(const SegmentedSkin& skin, std::span<const Vec3> p
   return move;
 }
 
-/// Joints with the skin around them; their directions stay.
+/// The rig with its joints moved with the skin around them. The directions of joints do not change.
 std::shared_ptr<const rig::Rig> reshaped_rig(const SegmentedSkin& skin, std::span<const Vec3> positions) {
   auto rig = std::make_shared<rig::Rig>(*skin.rig);
   const std::vector<Vec3> move = joint_moves(skin, positions);
@@ -87,8 +88,8 @@ std::shared_ptr<SegmentedSkin> reshaped_skin(const engine::Context& context, con
   return shape;
 }
 
-/// Tables that are read as they are.
-class TablesAsTheyAre final : public fitting::PosedTables {
+/// Tables that a refit reads without a change of direction.
+class UnchangedTables final : public fitting::PosedTables {
  public:
   proxy::TableReading read(std::uint32_t, const Vec3& direction) const override {
     return {.direction = direction};
@@ -107,7 +108,7 @@ engine::Result<proxy::BodyProxy> reshaped_proxy(const engine::Context& context, 
       fitting::carry_ellipsoids(context, proxy.ellipsoids(), before.input.skin.positions, labeled(shape));
   for (std::size_t k = 0; k < shapes.size(); ++k) data.ellipsoids[k].shape = shapes[k];
   if (!proxy.relief().empty()) {
-    auto tables = fitting::refit_tables(context, labeled(shape), {proxy, shapes, TablesAsTheyAre(), scale});
+    auto tables = fitting::refit_tables(context, labeled(shape), {proxy, shapes, UnchangedTables(), scale});
     if (!tables) return std::move(tables).error();
     data.relief = std::move(tables->relief);
     data.texels = std::move(tables->texels);
@@ -123,13 +124,13 @@ engine::Result<proxy::BodyProxy> reshaped_proxy(const engine::Context& context, 
 engine::Result<void> check_shape(const SegmentedSkin& skin, std::span<const Vec3> positions) {
   const std::size_t vertices = skin.input.skin.positions.size();
   if (positions.size() != vertices)
-    return unfit(
+    return bad_shape(
         engine::message("The shape has ", positions.size(), " vertices, but the skin has ", vertices, "."),
         "Give the same vertices at other positions.");
   for (std::size_t v = 0; v < vertices; ++v)
     if (!positions[v].allFinite())
-      return unfit(engine::message("Vertex ", v, " of the shape is not finite."),
-                   "Give positions in meters.");
+      return bad_shape(engine::message("Vertex ", v, " of the shape is not finite."),
+                       "Give positions in meters.");
   return {};
 }
 

@@ -33,9 +33,9 @@ bool same_joints(const rig::Skeleton& a, const rig::Skeleton& b) {
   });
 }
 
-/// A clip of another skeleton for this rig, with a warning that counts the joints which do not take part.
-engine::Result<BodyMotion> carried_over(const rig::Skeleton& source, const rig::Clip& clip,
-                                        const rig::Rig& rig, std::vector<engine::Warning>& warnings) {
+/// Retargets a clip of another skeleton to this rig. A warning counts the joints that have no partner.
+engine::Result<BodyMotion> retargeted(const rig::Skeleton& source, const rig::Clip& clip, const rig::Rig& rig,
+                                      std::vector<engine::Warning>& warnings) {
   auto carried = rig::retarget(source, clip, rig.skeleton);
   if (!carried) return std::move(carried).error();
   const rig::RetargetReport& report = carried->report;
@@ -43,13 +43,14 @@ engine::Result<BodyMotion> carried_over(const rig::Skeleton& source, const rig::
     warnings.push_back({"motion-joints", report.unmatched_source.front(),
                         engine::message("The clip '", clip.name, "' is of another skeleton: ",
                                         report.matched.size(), " joints follow it, ",
-                                        report.unmatched_source.size(), " that it moves are not there."),
+                                        report.unmatched_source.size(), " of its joints are missing here."),
                         "Give a clip of this body's own skeleton for all of its motion."});
   return BodyMotion{rig, std::move(carried->clip), 0.0};
 }
 
-/// Scans may sit on the floor with heels or toes up, so that the floor is where the skin ends. Wide bodies
-/// hold their arms out, which would else swing through the hips and what these wear.
+/// The options of a made motion for a skin. The floor is the lowest point of the skin, because a scan may sit
+/// on it with heels or toes up. Wide bodies hold their arms out, which would otherwise swing through the hips
+/// and the cloth on them.
 rigging::MotionOptions motion_options(const SegmentedSkin& skin, const rig::Rig& rig,
                                       std::optional<double> arms_out_before_deg) {
   const geometry::TriMesh& mesh = skin.input.skin;
@@ -60,8 +61,8 @@ rigging::MotionOptions motion_options(const SegmentedSkin& skin, const rig::Rig&
           .floor_m = geometry::bounding_box(skin.input.skin.positions).low.y()};
 }
 
-/// Made motions are of the common skeleton. For a rig of another one, the common skeleton of the same body is
-/// found and its clip carried over.
+/// Made motions need the common skeleton. For another rig, a common skeleton of the same body is found, and
+/// its clip is retargeted.
 engine::Result<BodyMotion> made_motion(const engine::Context& context, const SegmentedSkin& skin,
                                        rigging::Motion motion, std::optional<double> arms_out_before_deg,
                                        std::vector<engine::Warning>& warnings) {
@@ -69,11 +70,11 @@ engine::Result<BodyMotion> made_motion(const engine::Context& context, const Seg
   if (auto clip = rigging::make_clip(skin.rig->skeleton, motion, options))
     return BodyMotion{*skin.rig, std::move(clip).value(), options.arms_out_deg};
   auto common = rigging::make_rig(context, skin.input.skin, skin.anatomy);
-  if (!common) return of_body(std::move(common).error(), skin.input);
+  if (!common) return with_body_name(std::move(common).error(), skin.input);
   options = motion_options(skin, common->rig, arms_out_before_deg);
   auto clip = rigging::make_clip(common->rig.skeleton, motion, options);
   if (!clip) return std::move(clip).error();
-  auto carried = carried_over(common->rig.skeleton, *clip, *skin.rig, warnings);
+  auto carried = retargeted(common->rig.skeleton, *clip, *skin.rig, warnings);
   if (carried) carried->arms_out_deg = options.arms_out_deg;
   return carried;
 }
@@ -109,11 +110,12 @@ engine::Result<void> give_rig(const engine::Context& context, const BodySource& 
     return {};
   }
   if (skin.input.shape == io::Shape::kAny)
-    return of_body({engine::ErrorCode::kInvalidArgument, "A thing without bones has no joints to find.",
-                    "Give a file with a skeleton, or read it as a person."},
-                   skin.input);
+    return with_body_name(
+        {engine::ErrorCode::kInvalidArgument, "A thing without bones has no joints to find.",
+         "Give a file with a skeleton, or read it as a person."},
+        skin.input);
   auto found = rigging::make_rig(context, skin.input.skin, skin.anatomy);
-  if (!found) return of_body(std::move(found).error(), skin.input);
+  if (!found) return with_body_name(std::move(found).error(), skin.input);
   skin.rig = std::make_shared<const rig::Rig>(std::move(found->rig));
   return {};
 }
@@ -175,14 +177,14 @@ engine::Result<BodyMotion> find_motion(const engine::Context& context, const Seg
   if (!clip) return std::move(clip).error();
   if (same_joints(read->skeleton, skin.rig->skeleton))
     return BodyMotion{*skin.rig, std::move(clip).value(), 0.0};
-  return carried_over(read->skeleton, *clip, *skin.rig, warnings);
+  return retargeted(read->skeleton, *clip, *skin.rig, warnings);
 }
 
 engine::Result<BodyMotion> motion_of_shape(const engine::Context& context, const SegmentedSkin& skin,
                                            const MotionChoice& choice, const BodyMotion& before) {
   const auto motion = rigging::motion_from_name(choice.motion);
   if (!motion) return BodyMotion{*skin.rig, before.clip, before.arms_out_deg};
-  std::vector<engine::Warning> warnings;  // those of the shape before
+  std::vector<engine::Warning> warnings;  // dropped, because the first shape gave the same ones
   return made_motion(context, skin, *motion, before.arms_out_deg, warnings);
 }
 

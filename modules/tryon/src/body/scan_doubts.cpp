@@ -12,20 +12,23 @@ namespace {
 using body::LandmarkId;
 using geometry::Vec3;
 
-/// Skin this much farther from a landmark than the nearest skin is around it; a fraction of the stature.
-constexpr double kAround = 0.03;
-/// A landmark is made up with the skin where so much of that is; one in doubt, in proportion, where less is.
-constexpr double kMostly = 0.4;
-/// Where this much of the skin is made up, the landmark may be wrong. Where less is, its surroundings hold
-/// it.
-constexpr double kWholly = 0.7;
-/// Limbs of one body differ by less, a fraction of the stature, also where one of them is bent.
+/// The surroundings of a landmark are the skin no more than this farther away than the nearest skin; a
+/// fraction of the stature.
+constexpr double kSurroundings = 0.03;
+/// A landmark with confidence 1 gets the warning if this share of its surroundings is made up. The share
+/// falls in proportion to the confidence.
+constexpr double kMadeUpShare = 0.4;
+/// With more than this share made up, the landmark may be wrong. With less, the rest of its surroundings
+/// determines it, and the warning is a note.
+constexpr double kMostlyMadeUp = 0.7;
+/// The largest difference of both limbs of one body, also where one is bent; a fraction of the stature.
 constexpr double kMostDifference = 0.03;
 /// The least product of the confidences of both armpits and the crotch. Of 76 scans that were read right none
 /// has less than .59; two in which webs hid all three folds had .21 and .30.
 constexpr double kFoldsFit = 0.4;
-/// Landmarks from here on serve tailors; they lie where the others do.
-constexpr std::size_t kMain = 13;
+/// The number of main landmarks. Those after them serve tailors and lie near the main ones, so that they are
+/// not tested.
+constexpr std::size_t kMainLandmarks = 13;
 
 /// The share of made-up vertices around a point.
 double made_up_share(const io::ImportedMesh& mesh, const Vec3& point, double around_m) {
@@ -41,7 +44,7 @@ double made_up_share(const io::ImportedMesh& mesh, const Vec3& point, double aro
   return all > 0 ? static_cast<double>(made_up) / static_cast<double>(all) : 0.0;
 }
 
-/// From one landmark of a limb to the next, as a fraction of the stature.
+/// The distance from one landmark to another, as a fraction of the stature; NaN if one was not found.
 double length(const anatomy::Anatomy& anatomy, LandmarkId from, LandmarkId to) {
   const body::Landmark &a = anatomy.landmarks[static_cast<std::size_t>(from)],
                        &b = anatomy.landmarks[static_cast<std::size_t>(to)];
@@ -58,20 +61,20 @@ bool doubts_landmarks(const anatomy::Anatomy& anatomy) {
 void warn_of_made_up(const io::ImportedMesh& mesh, const anatomy::Anatomy& anatomy,
                      std::vector<engine::Warning>& warnings) {
   std::string names;
-  bool wholly = false;
-  for (std::size_t i = 0; i < kMain; ++i) {
+  bool mostly = false;
+  for (std::size_t i = 0; i < kMainLandmarks; ++i) {
     const body::Landmark& mark = anatomy.landmarks[i];
     if (mark.confidence <= 0.0) continue;
-    const double share = made_up_share(mesh, mark.position, kAround * anatomy.stature_m);
-    if (share < kMostly * mark.confidence) continue;
-    wholly = wholly || share > kWholly;
+    const double share = made_up_share(mesh, mark.position, kSurroundings * anatomy.stature_m);
+    if (share < kMadeUpShare * mark.confidence) continue;
+    mostly = mostly || share > kMostlyMadeUp;
     names += (names.empty() ? "" : ", ") + std::string(body::name(mark.id));
   }
   if (names.empty()) return;
   warnings.push_back(
       {"landmarks-made-up", "",
        "Much of the skin around these landmarks is not in the file, and closes holes: " + names + ".",
-       "Scan from more sides, also from below.", !wholly && !doubts_landmarks(anatomy)});
+       "Scan from more sides, also from below.", !mostly && !doubts_landmarks(anatomy)});
 }
 
 void warn_of_unequal_limbs(const anatomy::Anatomy& anatomy, std::vector<engine::Warning>& warnings) {
@@ -94,7 +97,7 @@ void warn_of_unequal_limbs(const anatomy::Anatomy& anatomy, std::vector<engine::
   }
 }
 
-/// Webs of a scan change all three folds alike, so that each may still look like one.
+/// Webs of a scan change all three folds alike, so that each single fold may still look right.
 void warn_of_folds(const anatomy::Anatomy& anatomy, std::vector<engine::Warning>& warnings) {
   double fit = 1.0;
   for (const LandmarkId id : {LandmarkId::kArmpitL, LandmarkId::kArmpitR, LandmarkId::kPerineum})
@@ -111,7 +114,7 @@ void warn_of_folds(const anatomy::Anatomy& anatomy, std::vector<engine::Warning>
 
 void warn_of_scan(const io::ImportedMesh& mesh, const anatomy::Anatomy& anatomy,
                   std::vector<engine::Warning>& warnings) {
-  if (anatomy.landmarks.size() < kMain) return;  // a thing has no landmarks
+  if (anatomy.landmarks.size() < kMainLandmarks) return;  // a thing has no landmarks
   if (!mesh.made_up.empty() || mesh.noise_m > 0.0) warn_of_folds(anatomy, warnings);
   if (mesh.made_up.empty()) return;
   warn_of_made_up(mesh, anatomy, warnings);

@@ -1,4 +1,5 @@
-// What a scan may hide: folds under webs, landmarks beside holes, and a hand or foot that is not whole.
+// Warnings of a scan: of folds under webs, of landmarks beside holes, and of a hand or foot that is
+// incomplete.
 #pragma once
 
 #include <vector>
@@ -8,9 +9,9 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// Warns where a scan, which has noise or a skin that was closed, may be wrong: all of armpits and crotch are
-/// unlike those of known bodies, much of the skin around a landmark closes holes of the file, or a limb is
-/// shorter than that of the other side. O(#V) a landmark.
+/// Warns of what may be wrong in a scan, that is, a skin with noise or closed holes. Folds: armpits and
+/// crotch together look unlike those of known bodies. Landmarks: much of the skin around one closes holes of
+/// the file. Limbs: one is shorter than that of the other side. O(#V) a landmark.
 void warn_of_scan(const io::ImportedMesh& mesh, const anatomy::Anatomy& anatomy,
                   std::vector<engine::Warning>& warnings);
 

@@ -70,7 +70,7 @@ engine::Result<engine::Output<std::shared_ptr<SegmentedSkin>>> add_segment_tasks
         of_this.made_up = body.made_up;
         auto found = body.shape == io::Shape::kAny ? anatomy::analyze_thing(context, body.skin)
                                                    : anatomy::analyze(context, body.skin, of_this);
-        if (!found) return of_body(std::move(found).error(), body);
+        if (!found) return with_body_name(std::move(found).error(), body);
         return found;
       },
       mesh);

@@ -15,7 +15,7 @@ Vec3 position(const anatomy::Anatomy& anatomy, LandmarkId id) {
   return anatomy.landmarks[static_cast<std::size_t>(id)].position;
 }
 
-/// Whether a lower leg stands along the y axis, as where a body bends over.
+/// Whether a lower leg stands along the y axis, as it does in a body that bends over.
 bool stands_on_calf(const anatomy::Anatomy& anatomy) {
   for (int side = 0; side < 2; ++side) {
     const Vec3 calf = position(anatomy, of_side(LandmarkId::kKneeL, side)) -

@@ -11,7 +11,8 @@ namespace bodice::inline v0_1::tryon {
 namespace {
 
 constexpr double kMostRamp_s = 60.0;
-// A garment with all but few vertices this near to the skin, and most of its area, is the body itself.
+// A garment is the skin itself if all but few of its vertices are this near to the skin, and it has most of
+// the skin's area.
 constexpr double kOnSkin_m = 1e-4, kMostBeside = 0.01, kLeastOfSkin = 0.9;
 
 bool is_the_skin(const geometry::TriMesh& garment, const SegmentedSkin& skin) {

@@ -30,7 +30,7 @@ namespace {
 
 using geometry::Vec3;
 
-constexpr double kLayersOfGap = 2.0;  // garments are laid over others at so many gaps
+constexpr double kLayersOfGap = 2.0;  // the distance of ordered garments, in gaps between layers
 
 double ramp_s(const engine::Context& context, const DrapeOptions& options, const PreparedBody& body) {
   if (!options.motion) return 0.0;
@@ -38,8 +38,7 @@ double ramp_s(const engine::Context& context, const DrapeOptions& options, const
                         : suggested_ramp_s(context, *options.motion, body.skin.input.skin.positions);
 }
 
-/// Returns the given thickness, or the one that the body at rest and the poses of its clip need.
-/// The base poses along the part of the clip that is played.
+/// The base poses along the part of the clip that is played; none without a motion or without relief.
 engine::Result<proxy::BasePoses> prepare_clip(const engine::Context& context, const DrapeOptions& options,
                                               const PreparedBody& body, const Progress& progress,
                                               std::vector<engine::StageTime>& stages) {
@@ -49,6 +48,7 @@ engine::Result<proxy::BasePoses> prepare_clip(const engine::Context& context, co
                          progress);
 }
 
+/// The given thickness, or the one that the body at rest and the poses of its clip need.
 engine::Result<double> thickness_m(const engine::Context& context, const DrapeOptions& options,
                                    const PreparedBody& body, const geometry::TriMesh& garments,
                                    const proxy::BasePoses& bases) {
@@ -100,12 +100,12 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   report.crossings_start = geometry::find_crossings(all->mesh.positions, all->mesh.triangles).size();
   report.ramp_s = ramp_s(context, options, body);
   warn_of_misplaced(garments, body, report.warnings);
-  if (auto met = meet_props(context, all->mesh.positions, body, options.props, result); !met)
-    return std::move(met).error();
-  const proxy::BodyProxy& met = result.proxy ? *result.proxy : body.fit.proxy;
-  auto scene = make_scene(*all, *solver, body, met, options.motion != nullptr, *bases);
+  if (auto joined = join_props(context, all->mesh.positions, body, options.props, result); !joined)
+    return std::move(joined).error();
+  const proxy::BodyProxy& proxy = result.proxy ? *result.proxy : body.fit.proxy;
+  auto scene = make_scene(*all, *solver, body, proxy, options.motion != nullptr, *bases);
   if (!scene) return std::move(scene).error();
-  MovingBody& moving = scene->met;
+  MovingBody& moving = scene->contact_body;
   report.lifted_m = lift_out(context, body.skin, moving.collider(), settings->thickness_m, *all, *solver);
   Recorder recorder(garments, *all, frames_to_keep(options.frames, options.kept_frames));
   Drape drape(context, options, *scene, recorder, result);
@@ -122,8 +122,8 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
       pierced_share(context, moving.distance(context), drape.positions(), all->mesh.triangles);
   add_cloth(context, drape.positions(), all->mesh.triangles, options.props, report.props);
   report.inside_union = moving.moves()
-                            ? count_inside(context, met, moving.poser()->posed(), drape.positions())
-                            : count_inside(context, met, drape.positions());
+                            ? count_inside(context, proxy, moving.poser()->posed(), drape.positions())
+                            : count_inside(context, proxy, drape.positions());
   report.hash = solver->hash();
   report.warnings.insert(report.warnings.end(), solver->warnings().begin(), solver->warnings().end());
   result.garments = recorder.take();
@@ -135,7 +135,7 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   return result;
 }
 
-/// Closes a clip that is played in a loop, and keeps what was played.
+/// Simulates with a clip that is closed if it loops, and returns the clip that was played.
 engine::Result<DrapeResult> play_and_simulate(const engine::Context& context, const PreparedBody& body,
                                               const std::vector<WornGarment>& garments,
                                               const DrapeOptions& options, const Progress& progress) {

@@ -21,13 +21,13 @@ constexpr double kJudgedWithin_m = 0.03, kVisibleDepth_m = 0.5e-3;
 engine::Result<Scene> make_scene(const Wardrobe& all, cloth::Solver& solver, const PreparedBody& body,
                                  const proxy::BodyProxy& with_props, bool moves,
                                  const proxy::BasePoses& bases) {
-  auto met = MovingBody::make(body.skin, with_props, moves);
-  if (!met) return std::move(met).error();
-  auto judged = MovingBody::make(body.skin, body.fit.proxy, moves);
-  if (!judged) return std::move(judged).error();
-  for (MovingBody* of : {&*met, &*judged})
+  auto contact_body = MovingBody::make(body.skin, with_props, moves);
+  if (!contact_body) return std::move(contact_body).error();
+  auto whole_body = MovingBody::make(body.skin, body.fit.proxy, moves);
+  if (!whole_body) return std::move(whole_body).error();
+  for (MovingBody* of : {&*contact_body, &*whole_body})
     if (auto kept = of->keep_bases(bases); !kept) return std::move(kept).error();
-  return Scene{all, solver, std::move(met).value(), std::move(judged).value()};
+  return Scene{all, solver, std::move(contact_body).value(), std::move(whole_body).value()};
 }
 
 Drape::Drape(const engine::Context& context, const DrapeOptions& options, Scene& scene, Recorder& recorder,
@@ -46,7 +46,7 @@ Drape::Drape(const engine::Context& context, const DrapeOptions& options, Scene&
 }
 
 void Drape::hold(double thickness_m, const rig::SkinWeights* skin_weights, const PreparedBody& body) {
-  held_ = held_positions(scene_.all, scene_.met.collider(), thickness_m);
+  held_ = held_positions(scene_.all, scene_.contact_body.collider(), thickness_m);
   if (skin_weights)
     held_weights_ = attach_to_skin(body.skin.input.skin, *body.skin.distance, *skin_weights, held_);
   posed_ = held_;
@@ -61,7 +61,7 @@ engine::Result<void> Drape::ramp() {
     context_.cancel.check();
     if (auto posed = pose(-ramp_s * (1.0 - static_cast<double>(step) / steps), ramp_s / steps); !posed)
       return posed;
-    scene_.solver.step(context_, scene_.met.collider(), ramp_s / steps);
+    scene_.solver.step(context_, scene_.contact_body.collider(), ramp_s / steps);
     scene_.solver.positions(positions_);
   }
   return {};
@@ -71,22 +71,24 @@ engine::Result<void> Drape::run(const Progress& progress) {
   DrapeReport& report = result_.report;
   std::vector<double> frame_ms;
   scene_.solver.positions(positions_);
-  offer(0, scene_.met.moves() ? penetration(context_, scene_.met.distance(context_), positions_)
-                              : Penetration{});
+  record_and_measure(0, scene_.contact_body.moves()
+                            ? penetration(context_, scene_.contact_body.distance(context_), positions_)
+                            : Penetration{});
   for (int frame = 1; frame <= options_.frames; ++frame) {
     context_.cancel.check();
     const std::int64_t begin_ns = context_.clock->now_ns();
     if (auto posed = pose(frame * options_.dt_s, options_.dt_s); !posed) return posed;
-    const cloth::FrameReport step = scene_.solver.step(context_, scene_.met.collider(), options_.dt_s);
+    const cloth::FrameReport step =
+        scene_.solver.step(context_, scene_.contact_body.collider(), options_.dt_s);
     frame_ms.push_back(static_cast<double>(context_.clock->now_ns() - begin_ns) * 1e-6);
 
     scene_.solver.positions(positions_);
     report.finite = report.finite && step.finite;
-    const Penetration depth = penetration(context_, scene_.met.distance(context_), positions_);
+    const Penetration depth = penetration(context_, scene_.contact_body.distance(context_), positions_);
     add_frame(frame, depth, report);
     add_frame(context_, frame, positions_, options_.props, report.props);
     add_cloth(step, report);
-    offer(frame, depth);
+    record_and_measure(frame, depth);
     if (progress) progress("drape", static_cast<double>(frame) / options_.frames);
   }
   summarize_times(std::move(frame_ms), report);
@@ -100,12 +102,12 @@ void Drape::measure_garments(const std::vector<WornGarment>& garments, const Pre
     const std::span<const Vec3> now =
         positions().subspan(scene_.all.first_vertex[g], garment.mesh.positions.size());
     std::vector<PartEase>& ease = result_.report.garments[g].ease;
-    ease = measure_ease(context_, scene_.met.skin(context_), body.skin.anatomy.part,
-                        scene_.met.distance(context_), garment.mesh, now);
+    ease = measure_ease(context_, scene_.contact_body.skin(context_), body.skin.anatomy.part,
+                        scene_.contact_body.distance(context_), garment.mesh, now);
     const std::vector<PartEase> start =
         measure_ease(context_, body.skin.input.skin, body.skin.anatomy.part, *body.skin.distance,
                      garment.mesh, garment.mesh.positions);
-    warn_of_fit({garment, start, ease, now, body.skin.anatomy.up, !scene_.met.moves()}, fabric,
+    warn_of_fit({garment, start, ease, now, body.skin.anatomy.up, !scene_.contact_body.moves()}, fabric,
                 result_.report.warnings);
   }
 }
@@ -115,38 +117,39 @@ void Drape::color(const FitScale& scale, const std::vector<WornGarment>& garment
   for (std::size_t g = 0; g < garments.size(); ++g) {
     const std::span<const Vec3> now =
         positions().subspan(scene_.all.first_vertex[g], garments[g].mesh.positions.size());
-    tracks[g].colors =
-        fit_colors(scale.map == FitMap::kEase ? ease_of_vertices(context_, scene_.met.distance(context_), now)
-                                              : strain_of_vertices(garments[g].mesh, now),
-                   scale);
+    tracks[g].colors = fit_colors(
+        scale.map == FitMap::kEase ? ease_of_vertices(context_, scene_.contact_body.distance(context_), now)
+                                   : strain_of_vertices(garments[g].mesh, now),
+        scale);
   }
 }
 
 engine::Result<void> Drape::pose(double time_s, double dt_s) {
-  if (!scene_.met.moves()) return {};
+  if (!scene_.contact_body.moves()) return {};
   player_->joints(time_s, joints_);
-  if (auto posed = scene_.met.pose(context_, joints_, dt_s, {.within = reach_.boxes(positions_)}); !posed)
+  if (auto posed = scene_.contact_body.pose(context_, joints_, dt_s, {.within = reach_.boxes(positions_)});
+      !posed)
     return engine::Error{posed.error().code,
                          engine::message("At second ", time_s, " of the clip '", options_.motion->clip.name,
                                          "': ", posed.error().message),
                          posed.error().remedy};
-  scene_.met.carry(held_, held_weights_, posed_);
+  scene_.contact_body.carry(held_, held_weights_, posed_);
   scene_.solver.move_pins(posed_);
   return {};
 }
 
-void Drape::offer(int frame, const Penetration& depth) {
+void Drape::record_and_measure(int frame, const Penetration& depth) {
   const double time_s = frame * options_.dt_s;
-  if (!recorder_.offer(frame, positions_, time_s) || !scene_.met.moves()) return;
-  // The body that judges takes the pose of the body that the cloth met in this frame.
-  static_cast<void>(scene_.judged.pose(context_, joints_, 0.0));
-  const geometry::MeshDistance& skin = scene_.met.distance(context_);
-  result_.body_frames.push_back(scene_.met.skin(context_).positions);
-  result_.proxy_frames.push_back(scene_.met.poser()->posed().shapes);
+  if (!recorder_.record_if_kept(frame, positions_, time_s) || !scene_.contact_body.moves()) return;
+  // The whole body takes the pose that the contact body had in this frame.
+  static_cast<void>(scene_.whole_body.pose(context_, joints_, 0.0));
+  const geometry::MeshDistance& skin = scene_.contact_body.distance(context_);
+  result_.body_frames.push_back(scene_.contact_body.skin(context_).positions);
+  result_.proxy_frames.push_back(scene_.contact_body.poser()->posed().shapes);
   result_.report.kept.push_back(
       {.time_s = time_s,
-       .proxy_error = measure_proxy_error(context_, scene_.judged.collider(), scene_.met.skin(context_), skin,
-                                          kJudgedWithin_m),
+       .proxy_error = measure_proxy_error(context_, scene_.whole_body.collider(),
+                                          scene_.contact_body.skin(context_), skin, kJudgedWithin_m),
        .penetration_max_m = depth.deepest_m,
        .inside = cloth_inside(context_, skin, positions_, scene_.all.mesh.triangles, kVisibleDepth_m)});
 }

@@ -1,4 +1,4 @@
-// A drape in progress: frames of cloth on a body, and what is measured and recorded of them.
+// The frames of a drape: they are simulated, recorded and measured.
 #pragma once
 
 #include <optional>
@@ -14,26 +14,27 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// The cloth, and the body twice: the one that the cloth meets, of which tables beyond the garments' reach
-/// stay as at rest; and the whole of it, which the report judges.
+/// The cloth, and the body twice. Cloth collides with `contact_body`, whose tables beyond the garments' reach
+/// stay as at rest. The report measures `whole_body`.
 struct Scene {
   const Wardrobe& all;
   cloth::Solver& solver;
-  MovingBody met, judged;
+  MovingBody contact_body, whole_body;
 };
 
-/// A body that moves takes the base poses. Fails where the proxy cannot follow its rig.
+/// Makes the scene of a drape; a moving body gets the base poses. Fails where the proxy cannot follow its
+/// rig.
 engine::Result<Scene> make_scene(const Wardrobe& all, cloth::Solver& solver, const PreparedBody& body,
                                  const proxy::BodyProxy& with_props, bool moves,
                                  const proxy::BasePoses& bases);
 
-/// A drape in progress: cloth, body, and what is recorded of them.
+/// A drape in progress: it moves the body, steps the cloth, and records and measures frames.
 class Drape {
  public:
   Drape(const engine::Context& context, const DrapeOptions& options, Scene& scene, Recorder& recorder,
         DrapeResult& result);
 
-  /// Puts pins on the body where it stands, in the bind pose.
+  /// Puts the held vertices on the body in its bind pose, as pins.
   void hold(double thickness_m, const rig::SkinWeights* skin_weights, const PreparedBody& body);
 
   /// Brings a body that moves from the bind pose to the clip's first frame.
@@ -44,19 +45,19 @@ class Drape {
 
   std::span<const geometry::Vec3> positions() const { return positions_; }
 
-  /// Measures how each garment lies now, and warns of what does not fit.
+  /// Measures the ease of each garment at its present positions, and warns of garments that do not fit.
   void measure_garments(const std::vector<WornGarment>& garments, const PreparedBody& body,
                         const cloth::Fabric& fabric);
 
-  /// Colors the tracks by how the garments lie now.
+  /// Colors the tracks by the fit of the garments at their present positions.
   void color(const FitScale& scale, const std::vector<WornGarment>& garments,
              std::vector<io::GarmentTrack>& tracks);
 
  private:
   /// Moves the body to a second of its clip, negative ones on the ramp, and pins with it.
   engine::Result<void> pose(double time_s, double dt_s);
-  /// Offers a frame to the recorder, and judges it if it is kept.
-  void offer(int frame, const Penetration& depth);
+  /// Records a frame if it is one to keep, and then measures it.
+  void record_and_measure(int frame, const Penetration& depth);
 
   const engine::Context& context_;
   const DrapeOptions& options_;

@@ -1,4 +1,4 @@
-// What a drape's report is made of.
+// The parts of a drape's report.
 #pragma once
 
 #include <vector>
@@ -12,10 +12,10 @@ namespace bodice::inline v0_1::tryon {
 DrapeReport describe(const std::vector<WornGarment>& garments, const DrapeOptions& options,
                      const cloth::SolverOptions& solver, const cloth::Fabric& fabric);
 
-/// Adds a frame's depth in the skin, and makes it that of the end.
+/// Adds the depth of a frame in the skin: to the list, to the maximum, and as that of the last frame.
 void add_frame(int frame, const Penetration& depth, DrapeReport& report);
 
-/// Sets what is reported of the cloth at the end.
+/// Sets the stretch and speed of the cloth at the last frame.
 void add_cloth(const cloth::FrameReport& last, DrapeReport& report);
 
 /// Sets the times of the cloth's frames, milliseconds.

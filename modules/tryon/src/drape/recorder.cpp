@@ -26,7 +26,7 @@ Recorder::Recorder(const std::vector<WornGarment>& garments, const Wardrobe& all
   }
 }
 
-bool Recorder::offer(int frame, std::span<const geometry::Vec3> positions, double time_s) {
+bool Recorder::record_if_kept(int frame, std::span<const geometry::Vec3> positions, double time_s) {
   if (next_ == keep_.size() || keep_[next_] != frame) return false;
   ++next_;
   for (std::size_t g = 0; g < tracks_.size(); ++g) {

@@ -21,7 +21,7 @@ class Recorder {
 
   /// Records the frame if it is one of those to keep, and returns whether it is. Frames come in order, from
   /// 0.
-  bool offer(int frame, std::span<const geometry::Vec3> positions, double time_s);
+  bool record_if_kept(int frame, std::span<const geometry::Vec3> positions, double time_s);
 
   std::vector<io::GarmentTrack> take() { return std::move(tracks_); }
 

@@ -10,11 +10,11 @@ using geometry::Box;
 using geometry::Index;
 using geometry::Vec3;
 
-/// Most vertices of a piece: a few square decimeters of cloth.
+/// The most vertices of a piece, a few square decimeters of cloth.
 constexpr std::size_t kMostVertices = 96;
 
-/// Divides order[begin, end) at the middle of its longest side until pieces are small; writes where they
-/// begin.
+/// Divides the vertices of `order` into halves along the longest side of their box until pieces are small.
+/// Appends the index at which each piece begins.
 void divide(std::span<const Vec3> positions, std::span<Index> order, std::size_t begin,
             std::vector<std::size_t>& first) {
   if (order.size() <= kMostVertices) {

@@ -15,7 +15,7 @@ using geometry::Index;
 using geometry::Vec3;
 
 constexpr double kDeepest_m = 0.04;      // how far below an inner garment a vertex may lie
-constexpr int kRounds = 40;              // of lifting triangles that cross; each lifts by a gap
+constexpr int kRounds = 40;              // the most rounds that lift triangles which cross, by a gap each
 constexpr std::size_t kLiftGrain = 256;  // vertices a task
 
 /// The direction away from the skin.
@@ -25,7 +25,8 @@ Vec3 outward(const geometry::MeshDistance& skin, const Vec3& p) {
                                                 : below.normal;
 }
 
-/// How far a vertex is to be lifted so that it lies over the inner garment, if that is next to it.
+/// The length by which a vertex must be lifted to lie over the inner garment, meters; 0 if that is not beside
+/// it.
 double lift_m(const geometry::MeshDistance& inner, const Vec3& p, const Vec3& out, double gap_m) {
   const auto near = inner.closest_point_within(p, kDeepest_m);
   if (!near) return 0.0;
@@ -76,7 +77,7 @@ void lay_over(const engine::Context& context, const geometry::MeshDistance& skin
   }
 }
 
-// A garment of a file is named by its path; the path's last part does as well, with or without its ending.
+// The name of a garment from a file is its path. The file's name with or without extension matches as well.
 bool is_named(const WornGarment& garment, const std::string& name) {
   const std::filesystem::path path = garment.name;
   return garment.name == name || path.filename() == name || path.stem() == name;

@@ -6,7 +6,7 @@ namespace bodice::inline v0_1::tryon {
 namespace {
 
 // Distances and sizes in statures.
-constexpr double kNear = 0.25;                      // a poncho begins above the head
+constexpr double kNear = 0.25;                      // a poncho may begin above the head
 constexpr double kSmallest = 0.03, kLargest = 4.0;  // a wristband and a train are within
 
 bool is_near(const geometry::TriMesh& garment, const PreparedBody& body, double within_m) {

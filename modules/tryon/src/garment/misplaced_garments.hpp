@@ -7,8 +7,8 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// Warns of garments that are far from the body or of another unit. Such a garment simulates without any
-/// penetration, so that the rest of the report looks like success.
+/// Warns of garments that are far from the body or in another unit. They would penetrate nothing, so that the
+/// rest of the report would look good.
 void warn_of_misplaced(const std::vector<WornGarment>& garments, const PreparedBody& body,
                        std::vector<engine::Warning>& warnings);
 

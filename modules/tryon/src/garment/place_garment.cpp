@@ -19,26 +19,27 @@ using geometry::Vec3;
 
 constexpr std::size_t kFittedPoints = 300;
 constexpr std::size_t kFittedGrain = 32;
-// A sample lies on the body between these distances from the skin, in statures: a skirt's hem is as far off
-// as the latter, and a garment that starts through the body is as deep as the former.
-constexpr double kThrough = 0.015, kHemOff = 0.15;
-// Shares of samples that lie on the body: where a garment is left as it is, where one is found, and where
-// another one is found as well.
-constexpr double kWorn = 0.5, kFound = 0.9, kRival = 0.75;
-// A garment beside the body is deep inside it with this share of its samples, or most of it lies on one side:
-// its distances add up to this share of what they would in one direction, and are this long, in statures. All
-// garments of the data folder have 0 and at most 0.25, those moved by 6 cm have 0.12 and 0.6 or more.
-constexpr double kCuts = 0.08, kOneSided = 0.35, kBeside = 0.02;
-// The size from corner to corner that a garment has, in statures: a wristband and a train are within. One
-// that has another unit is at least as large as a sock.
-constexpr double kLeastSize = 0.03, kSock = 0.1, kMostSize = 4.0;
-// A garment of its size that is this near to the body, in statures, may be meant to fall on it.
+// A sample counts as on the body up to this depth in the skin and up to this gap, in statures. A garment that
+// starts inside the body is as deep, and a skirt's hem is as far off.
+constexpr double kMostDepth = 0.015, kMostGap = 0.15;
+// Shares of samples on the body: kWornShare leaves a garment where it is, kFoundShare accepts another unit or
+// position, and kSecondShare of a second candidate makes the first ambiguous.
+constexpr double kWornShare = 0.5, kFoundShare = 0.9, kSecondShare = 0.75;
+// A garment counts as beside the body in two cases. More than kDeepShare of its samples are deep inside it.
+// Or the vectors from the skin to its samples add up to more than kOneSidedShare of their lengths, which
+// exceed kOffBody on average, in statures. Garments that fit have a deep share of 0 and a one-sided share of
+// at most 0.25; moved by 6 cm they have at least 0.12 and 0.6.
+constexpr double kDeepShare = 0.08, kOneSidedShare = 0.35, kOffBody = 0.02;
+// The range of a garment's diagonal, in statures, from a wristband to a dress with a train. In another unit,
+// a garment must be at least as large as a sock.
+constexpr double kLeastSize = 0.03, kLeastSizeInUnit = 0.1, kMostSize = 4.0;
+// A garment of plausible size within this distance of the body, in statures, may be meant to fall on it.
 constexpr double kMayFall = 0.25;
 constexpr double kLongestShift = 0.34;
 constexpr int kShiftSteps = 20;
-// A garment with samples nearer to the skin than this in the median, in statures, is worn in its unit.
+// A garment whose samples have a smaller median distance from the skin, in statures, keeps its unit.
 constexpr double kClose = 0.02;
-constexpr double kMostOff = 0.02;  // how far off the skin a shifted garment lies at most, in statures
+constexpr double kMostOff = 0.02;  // the largest gap of a shifted garment to the skin, in statures
 
 struct Unit {
   const char* name;
@@ -70,9 +71,9 @@ struct Candidate {
   Vec3 operator()(const Vec3& p) const { return scale * (turn * p) + shift; }
 };
 
-class Fitting {
+class PlacementTest {
  public:
-  Fitting(const engine::Context& context, const PlacedOn& body, const geometry::TriMesh& garment)
+  PlacementTest(const engine::Context& context, const PlacedOn& body, const geometry::TriMesh& garment)
       : context_(context), body_(body) {
     const std::vector<Vec3>& all = garment.positions;
     const std::size_t step = std::max<std::size_t>(1, all.size() / kFittedPoints);
@@ -94,7 +95,7 @@ class Fitting {
   double on_body(const Candidate& c) const {
     std::size_t count = 0;
     for (const double d : distances(c))
-      count += d > -kThrough * body_.stature_m && d < kHemOff * body_.stature_m;
+      count += d > -kMostDepth * body_.stature_m && d < kMostGap * body_.stature_m;
     return static_cast<double>(count) / static_cast<double>(samples_.size());
   }
   /// Whether the garment lies beside the body: it cuts deep into it, or is off it on one side.
@@ -105,11 +106,11 @@ class Fitting {
     for (const Vec3& sample : samples_) {
       const Vec3 p = c(sample);
       const geometry::SurfacePoint at = body_.skin.closest_point(p);
-      deep += at.signed_distance < -kThrough * body_.stature_m ? 1.0 : 0.0;
+      deep += at.signed_distance < -kMostDepth * body_.stature_m ? 1.0 : 0.0;
       sum += p - at.point, length += (p - at.point).norm();
     }
-    return deep > kCuts * count ||
-           (sum.norm() > kOneSided * length && length > kBeside * body_.stature_m * count);
+    return deep > kDeepShare * count ||
+           (sum.norm() > kOneSidedShare * length && length > kOffBody * body_.stature_m * count);
   }
   double nearest_m(const Candidate& c) const { return std::ranges::min(distances(c)); }
   /// The median distance of the samples from the skin, in statures.
@@ -121,8 +122,8 @@ class Fitting {
   /// The factor from the unit that the garment was read in to one of `unit_m` meters.
   double scale_of(double unit_m) const { return unit_m / body_.meters_per_unit; }
 
-  /// Moves the candidate along the axes that `free` has 1 for, to where its samples lie evenly off the skin,
-  /// by the mean of what each would have to move, step by step.
+  /// Shifts the candidate along the axes for which `free` is 1, until its samples lie evenly off the skin.
+  /// Each step is the mean of the samples' own shifts.
   void shift(Candidate& c, const Vec3& free) const {
     for (int step = 0; step < kShiftSteps; ++step) {
       std::vector<Vec3> by(samples_.size(), Vec3::Zero());
@@ -137,7 +138,8 @@ class Fitting {
       });
       Vec3 mean = Vec3::Zero();
       for (const Vec3& b : by) mean += b / static_cast<double>(by.size());
-      c.shift += 1.5 * mean.cwiseProduct(free);  // closest points slide along, so that a mean falls short
+      c.shift += 1.5 * mean.cwiseProduct(
+                           free);  // closest points slide along the skin, so that the mean alone falls short
     }
   }
 
@@ -166,21 +168,21 @@ bool is_same(double a, double b) {
 }
 
 /// All units and axes in which the garment has a garment's size, the most likely first.
-std::vector<Candidate> candidates(const Fitting& fitting) {
+std::vector<Candidate> candidates(const PlacementTest& test) {
   std::vector<Candidate> all;
   for (const Unit& from : kUnits)
     for (const Turn& turn : turns()) {
-      Candidate c{.scale = fitting.scale_of(from.meters), .turn = turn.matrix};
+      Candidate c{.scale = test.scale_of(from.meters), .turn = turn.matrix};
       c.name = is_same(c.scale, 1.0) ? "" : std::string("in ") + from.name;
       if (*turn.name) c.name += (c.name.empty() ? "" : ", ") + std::string(turn.name);
-      if (!fitting.has_size(c.scale, kSock)) continue;
-      c.on_body = fitting.is_beside(c) ? 0.0 : fitting.on_body(c);
+      if (!test.has_size(c.scale, kLeastSizeInUnit)) continue;
+      c.on_body = test.is_beside(c) ? 0.0 : test.on_body(c);
       all.push_back(std::move(c));
     }
-  // A smaller unit shrinks a garment toward the origin, where it may surround the feet as well: of those that
-  // are on the body, the largest counts.
+  // A smaller unit shrinks a garment toward the origin, where it may surround the feet. So the largest of the
+  // candidates that are on the body comes first.
   const auto rank = [](const Candidate& c) {
-    return std::pair(c.on_body >= kFound ? c.scale : 0.0, c.on_body);
+    return std::pair(c.on_body >= kFoundShare ? c.scale : 0.0, c.on_body);
   };
   std::ranges::stable_sort(all, std::greater<>(), rank);
   return all;
@@ -192,41 +194,43 @@ engine::Result<std::optional<engine::Warning>> place_garment(const engine::Conte
                                                              const PlacedOn& body, const std::string& name,
                                                              geometry::TriMesh& garment) {
   const std::optional<engine::Warning> nothing;
-  const Fitting fitting(context, body, garment);
-  if (fitting.empty()) return nothing;
+  const PlacementTest test(context, body, garment);
+  if (test.empty()) return nothing;
   const Candidate as_is;
-  const double nearest_m = fitting.nearest_m(as_is);
-  const bool is_near = fitting.has_size(1.0, kLeastSize) && fitting.on_body(as_is) >= kWorn;
-  const bool is_worn = is_near && !fitting.is_beside(as_is);
-  if (is_worn && fitting.median_off(as_is) < kClose) return nothing;
+  const double nearest_m = test.nearest_m(as_is);
+  const bool is_near = test.has_size(1.0, kLeastSize) && test.on_body(as_is) >= kWornShare;
+  const bool is_worn = is_near && !test.is_beside(as_is);
+  if (is_worn && test.median_off(as_is) < kClose) return nothing;
 
   std::vector<Candidate> all;
-  if (is_worn || !is_near) all = candidates(fitting);
-  const bool found = !all.empty() && all.front().on_body >= kFound;
-  // In too small a unit a garment shrinks to where it stands between the calves: only a larger one replaces
-  // it.
+  if (is_worn || !is_near) all = candidates(test);
+  const bool found = !all.empty() && all.front().on_body >= kFoundShare;
+  // A garment that was read in too small a unit stands between the calves, so that only a larger candidate
+  // replaces one that is worn.
   if (is_worn && !(found && all.front().scale > 1.0)) return nothing;
-  const bool clear = found && (all.size() < 2 || all[1].on_body < kRival || all[1].scale < all[0].scale);
+  const bool clear =
+      found && (all.size() < 2 || all[1].on_body < kSecondShare || all[1].scale < all[0].scale);
   std::optional<Candidate> taken;
   if (clear) taken = all.front();
-  if (!found && fitting.has_size(1.0, kLeastSize)) {
-    // Garments are mostly made at their height, and a skirt would slide up along the cone that it is.
+  if (!found && test.has_size(1.0, kLeastSize)) {
+    // Heights are mostly right, and a skirt, which is a cone, would slide up. So shifts along the floor are
+    // tried first.
     for (const Vec3& free : {Vec3(1.0, 0.0, 1.0), Vec3(1.0, 1.0, 1.0)}) {
       Candidate moved;
-      fitting.shift(moved, free);
-      moved.on_body = fitting.on_body(moved);
-      if (moved.on_body < kFound || fitting.is_beside(moved) ||
-          fitting.in_statures(moved.shift.norm()) >= kLongestShift)
+      test.shift(moved, free);
+      moved.on_body = test.on_body(moved);
+      if (moved.on_body < kFoundShare || test.is_beside(moved) ||
+          test.in_statures(moved.shift.norm()) >= kLongestShift)
         continue;
       taken = std::move(moved);
       break;
     }
   }
   if (!taken) {
-    if (fitting.has_size(1.0, kLeastSize) && fitting.in_statures(nearest_m) < kMayFall) return nothing;
+    if (test.has_size(1.0, kLeastSize) && test.in_statures(nearest_m) < kMayFall) return nothing;
     return engine::Error{
         engine::ErrorCode::kUnusableGeometry,
-        engine::message("The garment '", name, "' is ", fitting.size_m(), " m from corner to corner and ",
+        engine::message("The garment '", name, "' is ", test.size_m(), " m from corner to corner and ",
                         std::max(0.0, nearest_m), " m from a body of ", body.stature_m, " m, and ",
                         found ? "more than one unit or axis would put it on the body."
                               : "no unit, axes or shift put it on the body."),

@@ -17,8 +17,8 @@ namespace {
 using geometry::Vec3;
 using proxy::BodyProxy;
 
-/// A triangle's bounding ball about its centroid. A point within some length of the triangle is within that
-/// length plus the radius of the center.
+/// The bounding ball of a triangle around its centroid. A point within a distance d of the triangle is within
+/// d plus the radius of the center.
 struct Ball {
   Vec3 center;
   double radius_m;
@@ -46,7 +46,8 @@ engine::Result<void> check_reach(std::span<const geometry::TriMesh> garments, do
   return check_triangles(garments);
 }
 
-/// Whether the ellipsoid is within reach; also true for some that are a triangle's size too far.
+/// Whether the ellipsoid is within reach. It may be true as well for one that is too far by the size of a
+/// triangle.
 bool reaches(const geometry::Ellipsoid& shape, const std::vector<Ball>& balls, double within_m) {
   const double largest_m = shape.radii.maxCoeff();
   return std::ranges::any_of(balls, [&](const Ball& ball) {
@@ -56,7 +57,7 @@ bool reaches(const geometry::Ellipsoid& shape, const std::vector<Ball>& balls, d
   });
 }
 
-BodyProxy::Data keep(const BodyProxy& whole, const std::vector<std::uint8_t>& kept) {
+BodyProxy::Data cropped_data(const BodyProxy& whole, const std::vector<std::uint8_t>& kept) {
   BodyProxy::Data data{.tier = whole.tier(),
                        .stature_m = whole.stature_m(),
                        .margin_m = whole.margin_m(),
@@ -126,7 +127,7 @@ engine::Result<BodyProxy> within_reach(const engine::Context& context, const Bod
     return engine::Error{engine::ErrorCode::kUnusableGeometry,
                          "Nothing of the proxy is within reach of the garments.",
                          "Check that they have the same origin and units, or raise the margin."};
-  return BodyProxy::make(keep(proxy, kept));
+  return BodyProxy::make(cropped_data(proxy, kept));
 }
 
 }  // namespace bodice::tryon

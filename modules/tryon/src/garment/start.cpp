@@ -11,9 +11,10 @@ namespace {
 
 using geometry::Vec3;
 
-/// Contact moves what is less deep out within a frame, without a jerk.
+/// Contact moves shallower vertices out within a frame, without a jerk.
 constexpr double kWorthLifting_m = 0.015;
-/// The widest proxies stand out by half of this (`solid`, 108 mm); a longer one leads through another limb.
+/// The longest lift. The widest proxies stand out by half of it (`solid`, 108 mm), and a longer path would
+/// lead through another limb.
 constexpr double kLongestLift_m = 0.2;
 constexpr int kSteps = 64;
 constexpr double kArrived_m = 1e-5;
@@ -35,9 +36,10 @@ Vec3 normal_at(const geometry::TriMesh& skin, const std::vector<Vec3>& normals,
   return (share[0] * normals[t[0]] + share[1] * normals[t[1]] + share[2] * normals[t[2]]).stableNormalized();
 }
 
-/// The path along a direction until it leaves the proxy, meters; 0 if it does not within kLongestLift_m.
-double length_out_m(const collision::Collider& collider, const Vec3& from, const Vec3& direction,
-                    double thickness_m) {
+/// The length of the path along a direction until it leaves the proxy, meters; 0 if it does not within
+/// kLongestLift_m.
+double exit_path_m(const collision::Collider& collider, const Vec3& from, const Vec3& direction,
+                   double thickness_m) {
   double path_m = 0.0;
   for (int step = 0; step < kSteps && path_m <= kLongestLift_m; ++step) {
     const double missing_m = thickness_m - distance_of(collider, from + path_m * direction);
@@ -63,7 +65,7 @@ std::vector<Vec3> lifted_positions(const engine::Context& context, const geometr
     for (std::size_t v = begin; v < end; ++v) {
       if (!(depth_m[v] > 0.0)) continue;
       const Vec3 direction = normal_at(body.input.skin, normals, body.distance->closest_point(lifted[v]));
-      lifted[v] += length_out_m(collider, lifted[v], direction, thickness_m) * direction;
+      lifted[v] += exit_path_m(collider, lifted[v], direction, thickness_m) * direction;
     }
   });
   return lifted;

@@ -1,4 +1,4 @@
-// Where a garment begins that was made for the skin, when the proxy is wider than the skin.
+// The start of a garment that was made for the skin, where the proxy is wider than the skin.
 #pragma once
 
 #include <bodice/cloth/solver.hpp>

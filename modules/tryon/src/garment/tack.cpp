@@ -14,16 +14,18 @@ namespace {
 
 using geometry::Index;
 
-// Shares of the largest piece's area: a button, a buckle or a pocket; a strap or a belt.
+// Shares of the largest piece's area below which a piece is small (a button, a buckle, a pocket), or a strap
+// or belt.
 constexpr double kSmallPiece = 0.03, kStrap = 0.2;
-// A rim of a larger piece is tacked where this share of it lies on another piece: it is a seam. Where less of
-// it does, layers touch by chance, as a shirt's hem touches the trousers.
+// A rim of a larger piece is a seam, and is tacked, if at least this share of it lies on another piece. With
+// less, layers touch by chance, as a shirt's hem touches the trousers.
 constexpr double kSeam = 0.3;
-// The same share for a rim that lies on its own piece, as a bodice on the skirt that it is joined to in a few
-// points. The hem of a sleeve touches the trunk with less of it.
+// The same share for a rim on its own piece, as that of a bodice on a skirt which a few triangles join to it.
+// The hem of a sleeve touches the trunk with a smaller share.
 constexpr double kOwnSeam = 0.6;
-// A rim lies on its own piece where that is this many times as far along the cloth as it may be across, and
-// ends in a rim that is at most kOverlapWidth times as far away as that. Below a collar no layer ends.
+// A rim lies on its own piece under two conditions. The distance along the cloth is at least kAlongCloth
+// times the distance allowed across. And the layer below ends in a rim within kOverlapWidth times that
+// distance, which is not so below a collar.
 constexpr double kAlongCloth = 5.0, kOverlapWidth = 8.0;
 constexpr std::size_t kRimGrain = 64;
 
@@ -53,7 +55,7 @@ Pieces cut(const geometry::RepairedMesh& welded) {
   return pieces;
 }
 
-/// The piece that a vertex lies on, and its triangle there; without a triangle it lies on none.
+/// The piece that a vertex lies on, and the triangle there; kNoIndex if it lies on none.
 struct Nearest {
   std::size_t piece = 0;
   Index triangle = geometry::kNoIndex;
@@ -109,8 +111,8 @@ class NearestLayers {
     return geodesic::distances_within(graph_, {&start, 1}, static_cast<float>(within_m));
   }
 
-  /// Whether another layer of the piece ends near a vertex of its rim: there is a rim that is twice as far
-  /// along the cloth.
+  /// Whether another layer of the piece ends near a vertex of its rim: a rim is near in space, and at least
+  /// twice as far along the cloth.
   bool other_layer_ends_near(Index v) const {
     const double overlap_m = kOverlapWidth * within_m_;
     const geodesic::Field along = near_along_cloth(v, 2.0 * overlap_m);
@@ -128,7 +130,7 @@ class NearestLayers {
   geodesic::EdgeGraph graph_;
 };
 
-/// Leaves out what touches by chance.
+/// Drops the vertices of rims that are no seams.
 void keep_seams(const Pieces& pieces, std::vector<Nearest>& nearest) {
   for (const std::vector<Index>& rim : pieces.rims) {
     const std::size_t own = pieces.of_vertex(rim.front());

@@ -39,30 +39,30 @@ std::vector<Vec3> skin_below(const engine::Context& context, const geometry::Tri
   return below;
 }
 
-void find_missed(const engine::Context& context, const collision::Collider& collider,
-                 std::span<const Vec3> skin, std::span<float> missed_m) {
+void find_uncovered(const engine::Context& context, const collision::Collider& collider,
+                    std::span<const Vec3> skin, std::span<float> uncovered_m) {
   engine::parallel_for(context, skin.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3f local = (skin[i] - collider.origin()).cast<float>();
-      missed_m[i] = std::max(0.0f, collider.query({local.x(), local.y(), local.z()}).signed_distance);
+      uncovered_m[i] = std::max(0.0f, collider.query({local.x(), local.y(), local.z()}).signed_distance);
     }
   });
 }
 
-double thickness_for(std::vector<float> missed_m) {
-  if (missed_m.empty()) return kLeastThickness_m;
-  const auto rank = static_cast<std::ptrdiff_t>(kErrorQuantile * static_cast<double>(missed_m.size() - 1));
-  std::nth_element(missed_m.begin(), missed_m.begin() + rank, missed_m.end());
-  return std::clamp(kHalfCloth_m + double{missed_m[static_cast<std::size_t>(rank)]}, kLeastThickness_m,
+double thickness_for(std::vector<float> uncovered_m) {
+  if (uncovered_m.empty()) return kLeastThickness_m;
+  const auto rank = static_cast<std::ptrdiff_t>(kErrorQuantile * static_cast<double>(uncovered_m.size() - 1));
+  std::nth_element(uncovered_m.begin(), uncovered_m.begin() + rank, uncovered_m.end());
+  return std::clamp(kHalfCloth_m + double{uncovered_m[static_cast<std::size_t>(rank)]}, kLeastThickness_m,
                     kMostThickness_m);
 }
 
 double known_thickness_m(const engine::Context& context, const geometry::TriMesh& garment,
                          const geometry::MeshDistance& skin, const collision::Collider& collider) {
   const std::vector<Vec3> below = skin_below(context, garment, skin);
-  std::vector<float> missed_m(garment.positions.size(), 0.0f);
-  find_missed(context, collider, below, std::span(missed_m).first(below.size()));
-  return thickness_for(std::move(missed_m));
+  std::vector<float> uncovered_m(garment.positions.size(), 0.0f);
+  find_uncovered(context, collider, below, std::span(uncovered_m).first(below.size()));
+  return thickness_for(std::move(uncovered_m));
 }
 
 }  // namespace bodice::tryon

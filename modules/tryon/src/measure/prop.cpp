@@ -93,7 +93,7 @@ engine::Result<void> check_start(const engine::Context& context, std::span<const
   return {};
 }
 
-engine::Result<void> meet_props(const engine::Context& context, std::span<const geometry::Vec3> positions,
+engine::Result<void> join_props(const engine::Context& context, std::span<const geometry::Vec3> positions,
                                 const PreparedBody& body, std::span<const PreparedBody> props,
                                 DrapeResult& result) {
   if (props.empty()) return {};

@@ -12,7 +12,7 @@ engine::Result<void> check_start(const engine::Context& context, std::span<const
                                  std::span<const PreparedBody> props);
 
 /// Checks the start and joins the props to the body's proxy, for the cloth and the report of a drape.
-engine::Result<void> meet_props(const engine::Context& context, std::span<const geometry::Vec3> positions,
+engine::Result<void> join_props(const engine::Context& context, std::span<const geometry::Vec3> positions,
                                 const PreparedBody& body, std::span<const PreparedBody> props,
                                 DrapeResult& result);
 

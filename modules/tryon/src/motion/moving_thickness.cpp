@@ -28,15 +28,16 @@ engine::Result<double> moving_thickness_m(const engine::Context& context, const 
   MotionPlayer player(motion, 0.0);
   std::vector<rig::Affine> joints(motion.rig.skeleton.joints.size());
   std::vector<Vec3> posed(below.size());
-  std::vector<float> missed_m(garment.positions.size() * kPoses, 0.0f);
+  std::vector<float> uncovered_m(garment.positions.size() * kPoses, 0.0f);
   for (int pose = 0; pose < kPoses; ++pose) {
     player.joints(motion.clip.duration_s * pose / (kPoses - 1), joints);
     if (auto taken = moving->pose(context, joints, 0.0); !taken) return std::move(taken).error();
     moving->carry(below, weights, posed);
-    find_missed(context, moving->collider(), posed,
-                std::span(missed_m).subspan(static_cast<std::size_t>(pose) * below.size(), below.size()));
+    find_uncovered(
+        context, moving->collider(), posed,
+        std::span(uncovered_m).subspan(static_cast<std::size_t>(pose) * below.size(), below.size()));
   }
-  return thickness_for(std::move(missed_m));
+  return thickness_for(std::move(uncovered_m));
 }
 
 }  // namespace bodice::tryon
