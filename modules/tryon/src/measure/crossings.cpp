@@ -8,7 +8,7 @@
 namespace bodice::inline v0_1::tryon {
 namespace {
 
-// The garment that has this vertex of all.
+// The garment of a vertex of the joined mesh.
 const WornGarment& garment_of(const Wardrobe& all, const std::vector<WornGarment>& garments,
                               geometry::Index vertex) {
   const auto next = std::ranges::upper_bound(all.first_vertex, vertex);
@@ -29,10 +29,11 @@ std::size_t measure_crossings(const Wardrobe& all, const std::vector<WornGarment
   const geometry::SurfacePoint at = skin.distance.closest_point(positions[s[0]]);
   const body::Part part = skin.part[skin.mesh.triangles[at.triangle][0]];
   const std::string with = &of_s == &of_t ? "itself" : of_t;
-  warnings.push_back({"layers-cross", of_s,
-                      engine::message("At the end ", found.size(), " pairs of triangles cross, the first of ",
-                                      of_s, " with ", with, " at the ", body::name(part), "."),
-                      "Garments that cross at the start come apart where their order is given (--order)."});
+  warnings.push_back(
+      {"layers-cross", of_s,
+       engine::message("At the end ", found.size(), " pairs of triangles cross. The first is of ", of_s,
+                       " with ", with, ", near ", body::name(part), "."),
+       "Give the order of the garments from the body outward (--order), if they cross at the start."});
   return found.size();
 }
 

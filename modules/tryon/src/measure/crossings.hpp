@@ -1,4 +1,4 @@
-// Cloth that passes through cloth.
+// Triangles of cloth that cross.
 #pragma once
 
 #include <string>
@@ -17,8 +17,9 @@ struct LabeledSkinView {
   const geometry::MeshDistance& distance;
 };
 
-/// The pairs of triangles of all garments that cross at `positions`; a warning names their number, the
-/// garments and the part of the body of the first. Cost: find_crossings().
+/// The number of pairs of triangles that cross, of all garments at `positions`. A warning `layers-cross`
+/// states the number, and the garments and the part of the body of the first pair. Cost: that of
+/// geometry::find_crossings().
 std::size_t measure_crossings(const Wardrobe& all, const std::vector<WornGarment>& garments,
                               std::span<const geometry::Vec3> positions, const LabeledSkinView& skin,
                               std::vector<engine::Warning>& warnings);

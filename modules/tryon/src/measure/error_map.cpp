@@ -13,7 +13,7 @@ constexpr double kShareBelow = 0.98, kLeastLimit_m = 1e-4;
 constexpr std::array<float, 3> kOnSurface = {0.92f, 0.92f, 0.92f}, kInside = {0.13f, 0.40f, 0.80f},
                                kOutside = {0.80f, 0.20f, 0.16f};
 
-/// One digit of millimeters is enough for the end of a scale.
+/// Rounds the end of a scale to one digit, which is easy to read in a legend.
 double to_one_digit(double value_m) {
   const double unit = std::pow(10.0, std::floor(std::log10(value_m)));
   return std::round(value_m / unit) * unit;

@@ -2,22 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
 
 #include <bodice/engine/message.hpp>
 
 namespace bodice::inline v0_1::tryon {
 namespace {
 
-// What counts as missing, and what as slid: a centimeter is within what tailors allow, and cloth settles by
-// two or three.
+// kMissing_m: the length that a garment must lack to be too tight, because tailors allow up to a centimeter.
+// kSlid_m: the distance that it must slide to be too loose, because any cloth settles by two or three
+// centimeters.
 constexpr double kMissing_m = 0.01, kSlid_m = 0.05;
-// A part counts with this much cloth on it: a hand's palm.
+// The least area of cloth on a part that is judged, that of a palm.
 constexpr double kLeastArea_m2 = 0.01;
-// A garment lay on the body where its median gap was at most this.
+// The largest median gap of a garment that lies on the body.
 constexpr double kOnBody_m = 0.04;
 
-/// The length around that the garment lacks on a part so that its fabric would not be stretched beyond the
-/// limit.
+/// The length by which the garment is too short around a part: with so much more, its fabric would not be
+/// stretched beyond its limit. Meters.
 double missing_m(const PartEase& part, const cloth::Fabric& fabric) {
   return std::max(0.0, part.strain_mean - fabric.max_stretch) * part.girth_m;
 }
@@ -28,7 +32,7 @@ double median_gap_m(std::span<const PartEase> parts) {
   return area > 0.0 ? sum / area : 0.0;
 }
 
-double slid_m(const WornThen& worn) {
+double slid_m(const GarmentBeforeAndAfter& worn) {
   const std::vector<geometry::Vec3>& start = worn.garment.mesh.positions;
   double sum = 0.0, count = 0.0;
   for (std::size_t v = 0; v < start.size(); ++v) {
@@ -42,26 +46,34 @@ long millimeters(double meters) {
   return std::lround(1e3 * meters);
 }
 
+/// The parts on which the garment is too tight, the tightest first; of equals, the first part.
+std::vector<PartEase> tight_parts(std::span<const PartEase> parts, const cloth::Fabric& fabric) {
+  std::vector<PartEase> tight;
+  for (const PartEase& part : parts)
+    if (part.area_m2 >= kLeastArea_m2 && missing_m(part, fabric) >= kMissing_m) tight.push_back(part);
+  std::ranges::stable_sort(tight, std::greater<>(),
+                           [&](const PartEase& part) { return missing_m(part, fabric); });
+  return tight;
+}
+
+std::string tight_message(std::span<const PartEase> tight, const cloth::Fabric& fabric) {
+  std::string text = engine::message(
+      "The garment is too tight: around ", body::name(tight[0].part), " it lacks ",
+      millimeters(missing_m(tight[0], fabric)), " mm (stretched by ", std::lround(1e2 * tight[0].strain_mean),
+      " %, ", fabric.name, " yields by ", std::lround(1e2 * fabric.max_stretch), " %)");
+  for (std::size_t k = 1; k < tight.size(); ++k)
+    text += engine::message(k == 1 ? "; also around " : ", ", body::name(tight[k].part), " (",
+                            millimeters(missing_m(tight[k], fabric)), " mm)");
+  return text + ".";
+}
+
 }  // namespace
 
-void warn_of_fit(const WornThen& worn, const cloth::Fabric& fabric, std::vector<engine::Warning>& warnings) {
-  const PartEase* tightest = nullptr;
-  std::size_t tight = 0;
-  for (const PartEase& part : worn.end) {
-    if (part.area_m2 < kLeastArea_m2 || missing_m(part, fabric) < kMissing_m) continue;
-    ++tight;
-    if (!tightest || missing_m(part, fabric) > missing_m(*tightest, fabric)) tightest = &part;
-  }
-  if (tightest)
-    warnings.push_back(
-        {"too-tight", worn.garment.name,
-         engine::message(
-             "The garment is too tight: around ", body::name(tightest->part), " it lacks ",
-             millimeters(missing_m(*tightest, fabric)), " mm (stretched by ",
-             std::lround(1e2 * tightest->strain_mean), " %, ", fabric.name, " yields by ",
-             std::lround(1e2 * fabric.max_stretch), " %)",
-             tight > 1 ? engine::message("; ", tight, " parts are too tight.") : std::string(".")),
-         "Take a larger size, or a fabric that yields more."});
+void warn_of_fit(const GarmentBeforeAndAfter& worn, const cloth::Fabric& fabric,
+                 std::vector<engine::Warning>& warnings) {
+  if (const std::vector<PartEase> tight = tight_parts(worn.end, fabric); !tight.empty())
+    warnings.push_back({"too-tight", worn.garment.name, tight_message(tight, fabric),
+                        "Take a larger size, or a fabric that yields more."});
   if (!worn.body_stood || median_gap_m(worn.start) > kOnBody_m) return;
   const double slid = slid_m(worn);
   if (slid > kSlid_m)

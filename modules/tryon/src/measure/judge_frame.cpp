@@ -18,10 +18,10 @@ using geometry::Vec3;
 constexpr std::size_t kSamples = 4000;
 constexpr std::uint64_t kSampleSeed = 17;
 constexpr std::size_t kJudgeGrain = 64;
-constexpr double kWrong_m = 1e-3;                    // what counts as missed or false
-constexpr double kOverlap = 1.5;                     // a winding number above it: two layers of the body
-constexpr double kOver_m = 3e-4;                     // where the layer above the skin is looked for
-constexpr double kSpacing_m = 4e-3;                  // of samples on the cloth
+constexpr double kWrong_m = 1e-3;  // distance from the skin from which a wrong side counts as missed or false
+constexpr double kOverlap = 1.5;   // a winding number above this means two layers of the body
+constexpr double kOver_m = 3e-4;   // height above the skin at which a layer over it is searched for
+constexpr double kSpacing_m = 4e-3;                  // distance of samples on the cloth
 constexpr double kGoldenRatio = 0.6180339887498949;  // spreads consecutive offsets evenly
 
 struct Sample {
@@ -62,15 +62,15 @@ ProxyError summarize(const std::vector<Sample>& samples) {
   return result;
 }
 
-/// The corners of a triangle of cloth, and how often its edges are split so that samples lie near enough.
-struct Patch {
+/// A triangle of cloth, which is split into equal triangles whose centers are its samples.
+struct SampledTriangle {
   Vec3 a, b, c;
   double area_m2 = 0.0, longest_m = 0.0;
 
   int splits() const { return std::max(1, static_cast<int>(std::ceil(longest_m / kSpacing_m))); }
 
-  /// Calls visit(point, area) for the centers of the equal triangles that it is split into, row by row, so
-  /// that each lies beside the one before.
+  /// Calls visit(point, area) for each sample, with the area that it represents. Rows alternate in direction,
+  /// so that each sample lies beside the one before.
   template <class Visit>
   void for_each_sample(Visit&& visit) const {
     const int n = splits();
@@ -87,12 +87,12 @@ struct Patch {
   }
 };
 
-Patch patch_of(std::span<const Vec3> positions, const geometry::Triangle& t) {
-  Patch patch{positions[t[0]], positions[t[1]], positions[t[2]]};
-  patch.area_m2 = 0.5 * (patch.b - patch.a).cross(patch.c - patch.a).norm();
-  patch.longest_m =
-      std::max({(patch.b - patch.a).norm(), (patch.c - patch.b).norm(), (patch.a - patch.c).norm()});
-  return patch;
+SampledTriangle sampled_triangle(std::span<const Vec3> positions, const geometry::Triangle& t) {
+  SampledTriangle sampled{positions[t[0]], positions[t[1]], positions[t[2]]};
+  sampled.area_m2 = 0.5 * (sampled.b - sampled.a).cross(sampled.c - sampled.a).norm();
+  sampled.longest_m = std::max(
+      {(sampled.b - sampled.a).norm(), (sampled.c - sampled.b).norm(), (sampled.a - sampled.c).norm()});
+  return sampled;
 }
 
 }  // namespace
@@ -124,11 +124,12 @@ ProxyError measure_proxy_error(const engine::Context& context, const collision::
 void for_each_inside(const geometry::MeshDistance& skin, geometry::DistanceWalk& walk,
                      std::span<const Vec3> positions, const geometry::Triangle& triangle, double depth_m,
                      const std::function<void(const InsidePoint&)>& visit) {
-  const Patch patch = patch_of(positions, triangle);
-  if (!(patch.area_m2 > 0.0) || !std::isfinite(patch.area_m2)) return;
-  // A distance changes by no more than the point moves, so that most triangles need one.
-  if (walk.closest_point((patch.a + patch.b + patch.c) / 3.0).signed_distance > patch.longest_m) return;
-  patch.for_each_sample([&](const Vec3& at, double area_m2) {
+  const SampledTriangle sampled = sampled_triangle(positions, triangle);
+  if (!(sampled.area_m2 > 0.0) || !std::isfinite(sampled.area_m2)) return;
+  // A signed distance changes by no more than its point moves, so that one query excludes most triangles.
+  if (walk.closest_point((sampled.a + sampled.b + sampled.c) / 3.0).signed_distance > sampled.longest_m)
+    return;
+  sampled.for_each_sample([&](const Vec3& at, double area_m2) {
     if (walk.least_distance_m(at) > -depth_m) return;
     const geometry::SurfacePoint nearest = walk.closest_point(at);
     if (nearest.signed_distance < -depth_m)

@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 
 struct LengthUnit {
   const char* name;
-  double in_a_meter, digits;  ///< what a value is rounded by
+  double in_a_meter, digits;  ///< units in a meter, and steps in a unit to which values are rounded
 };
 constexpr LengthUnit kMillimeters = {"mm", 1e3, 100.0}, kCentimeters = {"cm", 1e2, 1000.0};
 

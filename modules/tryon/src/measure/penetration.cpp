@@ -14,8 +14,8 @@ namespace {
 using geometry::Vec3;
 
 constexpr std::size_t kParticleGrain = 256;  // particles a block: about a millisecond of signed distances
-// Depths, in statures, below which a particle counts as outside the proxy: the rounding of float positions,
-// and with relief the error that the collider certifies (0.05 mm at 1.7 m).
+// A particle counts as inside the proxy beyond these depths, in statures. They are the rounding of float
+// positions, and with relief the error that the collider certifies (0.05 mm at 1.7 m).
 constexpr double kInsideTolerance = 1e-6;
 constexpr double kReliefTolerance = 0.05e-3 / 1.7;
 

@@ -12,18 +12,19 @@
 namespace bodice::inline v0_1::tryon {
 namespace {
 
-/// A garment may touch a prop at the start, but not reach deeper into it.
+/// The largest depth of a garment in a prop at the start, where it may touch it.
 constexpr double kTouches_m = 0.005;
 
-/// The options of a prop's fit: no more than the body's fit was given. Boards need the tiers that are fitted
-/// to the surface: an ellipsoid that encloses a seat rises by centimeters above it.
+/// The options of a prop's fit, from those of the body's fit. Boards need a tier that is fitted to the
+/// surface, because an ellipsoid that encloses a seat rises centimeters above it.
 fitting::FitOptions prop_options(const PreparedBody& body, const fitting::FitOptions& of_body) {
   fitting::FitOptions options;
   options.tier = body.fit.proxy.relief().empty() ? proxy::Tier::kTight : proxy::Tier::kRelief;
   options.target_error_m = of_body.target_error_m;
   options.max_ellipsoids = of_body.max_ellipsoids;
   options.time_budget_s = of_body.time_budget_s;
-  // A query's time goes with the number of ellipsoids around, not with that of all.
+  // The time of a query depends on the ellipsoids nearby, not on the number of all, so that a time budget
+  // gives none.
   if (of_body.budget_us) options.max_ellipsoids = static_cast<int>(body.fit.proxy.ellipsoids().size());
   return options;
 }
@@ -32,7 +33,7 @@ engine::Result<PreparedBody> fit_beside(const engine::Context& context, Segmente
                                         const PreparedBody& body, const fitting::FitOptions& options,
                                         const Progress& progress) {
   skin.rig.reset();
-  // Tables of one proxy have one reach, which goes with the stature.
+  // All tables of a proxy have the same reach, which is proportional to the stature.
   skin.anatomy.stature_m = body.fit.proxy.stature_m();
   return fit_proxy(context, std::move(skin), prop_options(body, options), progress);
 }
@@ -86,9 +87,7 @@ engine::Result<void> check_start(const engine::Context& context, std::span<const
           engine::message("A garment begins up to ", 1e3 * deepest_m, " mm inside the prop ",
                           prop.skin.input.file.empty() ? "that was given" : prop.skin.input.file.string(),
                           "."),
-          "Begin with a body that stands apart from the prop and moves onto it (program: --motion), or move "
-          "the "
-          "prop."};
+          "Begin with a body beside the prop that moves onto it (program: --motion), or move the prop."};
   }
   return {};
 }

@@ -10,7 +10,7 @@
 namespace bodice::inline v0_1::tryon {
 namespace {
 
-/// Deeper than this a vertex is no longer one of the skin that was moved when it was repaired.
+/// The depth from which a vertex counts as internal. Repair moves vertices of the skin by less.
 constexpr double kInside_m = 1e-3;
 constexpr std::array<const char*, 6> kRegions = {"body",     "left_arm",  "right_arm",
                                                  "left_leg", "right_leg", "face_internal"};

@@ -8,7 +8,8 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// The elongation of the most stretched edge, zero or more. Edges without a length at rest have none.
+/// The elongation of the most stretched edge of a triangle, zero or more. Edges of no length at rest are left
+/// out.
 inline double longest_strain(const geometry::TriMesh& rest, std::span<const geometry::Vec3> now,
                              const geometry::Triangle& t) {
   double strain = 0.0;

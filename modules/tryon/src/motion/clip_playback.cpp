@@ -35,7 +35,7 @@ void ClipPlayback::start_from(std::span<const rig::Affine> world, double time_s,
   seek(time_s, ramp_s);
 }
 
-void ClipPlayback::go_on_as(const ClipPlayback& other) {
+void ClipPlayback::continue_from(const ClipPlayback& other) {
   start_from_bind(other.time_s_, other.ramp_s_);
   ramp_left_s_ = other.ramp_left_s_;
   find_joints(time_s_, ramp_left_s_, world_);

@@ -1,4 +1,4 @@
-// A clip that is played frame by frame: paused, looped, moved in time, and reached by ramps.
+// The playback of a clip, frame by frame: it can pause, loop, move to another time, and start with a ramp.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,8 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// The joints of a body over the frames of a session. A ramp leads from some pose to the clip's; while it
-/// lasts, the clip waits. Nothing but the constructor allocates.
+/// The joints of a body over the frames of a session. A ramp leads from another pose to that of the clip,
+/// whose time stands still meanwhile. Only the constructor allocates.
 class ClipPlayback {
  public:
   ClipPlayback(std::shared_ptr<const BodyMotion> motion, rig::Playback playback);
@@ -19,15 +19,17 @@ class ClipPlayback {
 
   /// Moves to a second of the clip, at once or over `ramp_s` from the pose in force.
   void seek(double time_s, double ramp_s);
-  /// The same from the bind pose, or from other joints of this skeleton (#J, world).
+  /// The same from the bind pose, or from joints of this skeleton in another pose (#J, world).
   void start_from_bind(double time_s, double ramp_s);
   void start_from(std::span<const rig::Affine> world, double time_s, double ramp_s);
-  /// Shows the same time of the same clip as the playback of another body.
-  void go_on_as(const ClipPlayback& other);
-  /// Goes on by dt_s: with the ramp first, then with the clip.
+  /// Continues at the time and ramp of another body's playback of the same clip.
+  void continue_from(const ClipPlayback& other);
+  /// Advances by dt_s: the ramp first, then the clip.
   void advance(double dt_s);
 
-  double time_s() const noexcept { return time_s_; }            ///< of the clip; where it loops, it goes on
+  double time_s() const noexcept {
+    return time_s_;
+  }  ///< time of the clip; it goes on rising where the clip loops
   double ramp_left_s() const noexcept { return ramp_left_s_; }  ///< 0: the clip's own pose is shown
   /// #J: joint space to world of the pose in force.
   std::span<const rig::Affine> joints() const noexcept { return world_; }

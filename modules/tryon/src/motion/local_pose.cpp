@@ -5,14 +5,15 @@
 namespace bodice::inline v0_1::tryon {
 namespace {
 
-// The transform that is `share` of what leads from a to b.
+// The transform between a and b, with the weight `share` of b.
 rig::LocalTransform between(const rig::LocalTransform& a, const rig::LocalTransform& b, double share) {
   return {.translation = (1.0 - share) * a.translation + share * b.translation,
           .rotation = a.rotation.slerp(share, b.rotation),
           .scale = (1.0 - share) * a.scale + share * b.scale};
 }
 
-// What lies as far before `now` as `next` after it. A scale stays, because it may not pass through zero.
+// The transform as far before `now` as `next` is after it. The scale stays, because it must not pass through
+// zero.
 rig::LocalTransform mirrored(const rig::LocalTransform& now, const rig::LocalTransform& next) {
   return {.translation = rig::mirrored(now.translation, next.translation),
           .rotation = rig::mirrored(now.rotation, next.rotation),
@@ -45,9 +46,9 @@ void sample_with_ramp(const BodyMotion& motion, double time_s, rig::Playback pla
   const rig::Skeleton& skeleton = motion.rig.skeleton;
   rig::sample(skeleton, motion.clip, time_s, local, playback);
   if (!(ramp.left_s > 0.0)) return;
-  // A body that stood still when its clip begins would throw tight cloth off in the first frame. So the ramp
-  // leads to what the clip would have been before: its next moments mirrored in time, which have the same
-  // velocity where they meet the clip. A clip that starts over may jump there, and none leads beyond a jump.
+  // A body that stands still when its clip begins would throw off tight cloth in the first frame. So the ramp
+  // leads to poses before the clip: its first moments mirrored in time, which have the clip's velocity where
+  // they meet it. The moments ahead are taken without looping, because a clip may jump where it starts over.
   const double lead_s = rig::lead_s(ramp.left_s);
   rig::sample(skeleton, motion.clip, rig::time_in_clip(motion.clip, time_s, playback) + lead_s, ahead);
   const double share = rig::smooth_step(1.0 - ramp.left_s / ramp.length_s);

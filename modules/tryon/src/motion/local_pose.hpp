@@ -1,4 +1,4 @@
-// Poses as the local transforms of joints, between which a ramp leads.
+// Poses as local transforms of joints, and the ramps between them.
 #pragma once
 
 #include <span>
@@ -22,9 +22,9 @@ struct Ramp {
   double length_s = 0.0, left_s = 0.0;
 };
 
-/// Local transform of each joint (#J) at a time of the clip that is reached by a ramp; without one left,
-/// those of the clip. A ramp ends with the velocities that the clip has there. Allocates nothing. `ahead`
-/// (#J) is scratch.
+/// The local transform of each joint (#J) while a ramp leads to a time of the clip; those of the clip where
+/// nothing of the ramp is left. A ramp ends with the velocities that the clip has there. Allocates nothing.
+/// `ahead` (#J) is scratch.
 void sample_with_ramp(const BodyMotion& motion, double time_s, rig::Playback playback, const Ramp& ramp,
                       std::span<rig::LocalTransform> local, std::span<rig::LocalTransform> ahead);
 

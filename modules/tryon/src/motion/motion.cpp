@@ -18,7 +18,8 @@ using geometry::Vec3;
 
 constexpr double kRampSpeed_m_s = 1.0;  // the speed of a hand in a walk
 constexpr double kShortestRamp_s = 0.25, kLongestRamp_s = 2.0;
-constexpr double kAtRest_m = 1e-4;  // a skin that is this near the other pose needs no ramp or seam
+// The farthest vertex distance of two poses that need no ramp or seam between them.
+constexpr double kAtRest_m = 1e-4;
 constexpr double kShortestSeam_s = 1.0 / 60.0;
 constexpr std::size_t kPointGrain = 1024;
 

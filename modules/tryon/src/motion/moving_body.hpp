@@ -1,4 +1,4 @@
-// A body in the state of a frame: standing still, or posed by its joints before each frame.
+// A body during frames: it stands still, or its joints pose it before each frame.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,8 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// A collider with the skin that judges it. Not thread-safe. Keeps a reference to the skin.
+/// A body's collider together with its skin in the same pose, which measures it. Not thread-safe. Keeps a
+/// reference to the skin.
 class MovingBody {
  public:
   /// `moves` false: the body stands still, whatever its proxy. The collider covers the skin at rest. Fails
@@ -25,35 +26,36 @@ class MovingBody {
                                          bool moves);
 
   bool moves() const noexcept { return poser_.has_value(); }
-  /// Poses the collider by the joints, #J; contacts then use the velocity of a surface that came here in
-  /// dt_s. Outside of the boxes `options.within` tables stay as at rest; within, they cover the skin. Fails
-  /// where a matrix is refused, and then nothing moves. Allocates nothing.
+  /// Poses the collider by the joints, #J. Contacts then use the velocity of a surface that moved there
+  /// within dt_s. Outside of the boxes `options.within` tables stay as at rest; inside, relief covers the
+  /// skin. Fails where a matrix is refused, and then changes nothing. Allocates nothing.
   engine::Result<void> pose(const engine::Context& context, std::span<const rig::Affine> joints, double dt_s,
                             const binding::PoseOptions& options = {});
 
-  /// Adds base poses of the body, which later poses are mixed from. Fails where one is not of this body.
+  /// Adds base poses, whose tables later poses use. Fails where one belongs to another body.
   engine::Result<void> keep_bases(const proxy::BasePoses& bases);
 
-  /// Goes over to its shape from that of another body of the same vertices, in the calls that follow.
-  void come_from(const MovingBody& before) { blend_.begin(before.blend_); }
-  /// The share of the shape that it comes from: 1 at first, 0 where it has its own.
-  double share_before() const noexcept { return blend_.share(); }
-  /// Goes on by dt_s from the shape before; pose() then shows it.
-  void go_over(double dt_s) { blend_.advance(dt_s); }
-  /// Shows the shape on a body that has no pose: one that stands still, or is in its bind pose.
+  /// Starts a blend from the present shape of another body of the same vertices to this body's own.
+  void start_blend_from(const MovingBody& before) { blend_.begin(before.blend_); }
+  /// The share of the earlier shape in the blend: 1 at first, 0 at the end.
+  double blend_share() const noexcept { return blend_.share(); }
+  /// Advances the blend by dt_s; the next pose() shows it.
+  void advance_blend(double dt_s) { blend_.advance(dt_s); }
+  /// Shows the blend on a body that stands still or is in its bind pose.
   void show_shape(const engine::Context& context);
 
   /// Null where the body stands still.
   binding::Poser* poser() noexcept { return poser_ ? &*poser_ : nullptr; }
 
   const collision::Collider& collider() const noexcept { return collider_; }
-  /// The skin in the pose in force, computed at the first call in it.
+  /// The skin in the current pose, computed at the first call in each pose.
   const geometry::TriMesh& skin(const engine::Context& context);
-  /// The same while the body goes over to its shape; as many positions as `out` has.
+  /// The same during a blend of shapes. Writes as many positions as `out` has.
   void skin_positions(std::span<geometry::Vec3> out);
-  /// Exact, of skin(). Built anew in each pose in which it is called.
+  /// The exact distance to skin(). It is built anew at the first call in each pose.
   const geometry::MeshDistance& distance(const engine::Context& context);
-  /// Carries points that were attached to the skin in the bind pose into the pose in force, #points each.
+  /// Moves points that were attached to the skin in the bind pose into the current pose; all lists have one
+  /// element for each point.
   void carry(std::span<const geometry::Vec3> bound, const rig::SkinWeights& weights,
              std::span<geometry::Vec3> posed) const;
 

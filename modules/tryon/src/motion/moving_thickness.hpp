@@ -10,10 +10,10 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// The thickness as by known_thickness_m(), for the skin below the garment in poses that are spread over the
-/// clip, where it stands out of the proxy that is posed with these base poses. Skin that another part of the
-/// body covers does not stand out. Fails where a pose is refused. Cost: a closest point of the skin a vertex,
-/// and in each pose a query a vertex.
+/// The thickness of known_thickness_m() over poses that are spread evenly over the clip. In each pose it
+/// measures how far the skin below the garment lies outside of the proxy, which is posed with these base
+/// poses. Skin inside another part of the body does not lie outside. Fails where a pose is refused. Cost: a
+/// closest point of the skin a vertex, and in each pose a query a vertex.
 engine::Result<double> moving_thickness_m(const engine::Context& context, const geometry::TriMesh& garment,
                                           const PreparedBody& body, const BodyMotion& motion,
                                           const proxy::BasePoses& bases);

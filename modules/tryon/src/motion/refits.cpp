@@ -8,8 +8,8 @@
 namespace bodice::inline v0_1::tryon {
 namespace {
 
-/// About the time that a refit takes behind frames. A moving body is refitted for the pose that it will have
-/// then.
+/// The approximate time of a refit behind frames. The refit of a moving body is for the pose that it will
+/// have after this time.
 constexpr double kAhead_s = 0.3;
 /// A moving body gets another base pose if its joints are turned farther than this from every one that it
 /// has.
@@ -39,8 +39,8 @@ bool Refits::take(const proxy::BodyProxy& proxy, MovingBody& body) {
   return body.poser()->add_base(ready->base, kPosesToBlend).ok();
 }
 
-void Refits::consider(const std::shared_ptr<const SegmentedSkin>& skin, const proxy::BodyProxy& proxy,
-                      MovingBody& body, ClipPlayback& playback, bool paused) {
+void Refits::begin_if_needed(const std::shared_ptr<const SegmentedSkin>& skin, const proxy::BodyProxy& proxy,
+                             MovingBody& body, ClipPlayback& playback, bool paused) {
   if (runs_ || proxy.relief().empty()) return;
   ahead_.resize(playback.joints().size());
   if (paused)

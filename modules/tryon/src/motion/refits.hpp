@@ -1,5 +1,5 @@
-// Refits behind the frames of a session: where the joints have left what is there, tables are solved anew in
-// a pose, and taken at a frame boundary.
+// Refits behind the frames of a session. Where the joints are far from every base pose, tables are solved
+// anew for a pose, and come into use at a frame boundary.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +20,15 @@ class Refits {
  public:
   explicit Refits(engine::FramePipeline& pipeline) : stream_(pipeline) {}
 
-  /// Gives the body a base pose that has become ready since the last call, if it is one of its proxy. It then
-  /// counts fully after some frames, so that the surface does not jump. Returns whether it did.
+  /// Gives the body a base pose that has become ready since the last call, if it belongs to the body's proxy;
+  /// returns whether it did. The share of the base pose rises over some frames, so that the surface does not
+  /// jump.
   bool take(const proxy::BodyProxy& proxy, MovingBody& body);
 
-  /// Begins a refit where the joints will soon be far from every base pose of the body: of the pose in which
-  /// a moving body will be when the refit is ready.
-  void consider(const std::shared_ptr<const SegmentedSkin>& skin, const proxy::BodyProxy& proxy,
-                MovingBody& body, ClipPlayback& playback, bool paused);
+  /// Begins a refit if the joints will soon be far from every base pose of the body. It solves the tables for
+  /// the pose that a moving body will have when the refit is ready.
+  void begin_if_needed(const std::shared_ptr<const SegmentedSkin>& skin, const proxy::BodyProxy& proxy,
+                       MovingBody& body, ClipPlayback& playback, bool paused);
 
  private:
   struct Refit {

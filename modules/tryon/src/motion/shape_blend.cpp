@@ -5,7 +5,7 @@
 namespace bodice::inline v0_1::tryon {
 namespace {
 
-/// A shape takes at least this time to come into use, and as long as its surface moves faster than this.
+/// The shortest duration of a blend, and the largest speed of its surface, which may make it longer.
 constexpr double kLeast_s = 1.0 / 6.0, kFastest_m_s = 0.1;
 
 double farthest_m(std::span<const geometry::Ellipsoid> a, std::span<const geometry::Ellipsoid> b) {

@@ -1,4 +1,4 @@
-// A body that goes over from another shape of the same vertices to its own, so that no surface jumps.
+// A gradual change from another shape of the same vertices to a body's own, so that no surface jumps.
 #pragma once
 
 #include <span>
@@ -9,20 +9,21 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// Ellipsoids and skin at rest between one shape and another. Only the constructor allocates.
+/// Ellipsoids and skin at rest, between an earlier shape and the body's own. Only the constructor allocates.
 class ShapeBlend {
  public:
-  /// Begins in its own shape. Keeps a reference to the skin's positions, #V.
+  /// Starts in the body's own shape. Keeps a reference to the skin's positions, #V.
   ShapeBlend(const proxy::BodyProxy& proxy, std::span<const geometry::Vec3> skin);
 
-  /// Begins where another blend is. Does nothing for another number of ellipsoids or vertices. O(#V).
+  /// Starts a blend from the present shape of another one. Does nothing for another number of ellipsoids or
+  /// vertices. O(#V).
   void begin(const ShapeBlend& before);
-  /// Goes on by dt_s.
+  /// Advances the blend by dt_s.
   void advance(double dt_s);
 
   double share() const noexcept {
     return share_;
-  }  ///< the share of the shape before: 1 at first, 0 at the end
+  }  ///< the share of the earlier shape: 1 at first, 0 at the end
   std::span<const binding::ShapeOffset> offsets() const noexcept { return offsets_; }  ///< #E
   std::span<const geometry::Ellipsoid> shapes() const noexcept { return shapes_; }     ///< #E, at rest
   /// A vertex of the skin at rest.

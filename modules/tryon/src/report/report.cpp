@@ -65,7 +65,7 @@ Json vector_json(const geometry::Vec3& v) {
   return {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0};
 }
 
-/// Where a part lies, in the file's units and axes: the middle and the size of its box.
+/// Adds center and size of a part's box, in the file's units and axes.
 void add_box(const SegmentedSkin& skin, body::Part part, Json& line) {
   geometry::Box box;
   for (std::size_t v = 0; v < skin.anatomy.part.size(); ++v)
@@ -74,7 +74,7 @@ void add_box(const SegmentedSkin& skin, body::Part part, Json& line) {
   line["size"] = vector_json(box.size());
 }
 
-/// A person's stature, or how high a thing is as it stands.
+/// The stature of a person, or the height of a thing's box.
 double height_m(const SegmentedSkin& skin) {
   return is_thing(skin) ? geometry::bounding_box(skin.input.skin.positions).size().y()
                         : skin.anatomy.stature_m;

@@ -14,8 +14,8 @@ namespace {
 using geometry::Vec3;
 using BodySink = engine::Sink<SessionBody>;
 
-/// Publishes each proxy with all that frames need, so that a frame only takes a pointer. The clip that was
-/// wanted when the body was submitted is found once.
+/// Publishes each proxy of a body together with everything that frames need, so that a frame only copies a
+/// pointer. The clip that was requested when the body was submitted is found once.
 class BodyPublisher {
  public:
   BodyPublisher(const engine::Context& context, BodySink& sink, bool moves, WantedClip wanted, Worn worn)
@@ -49,7 +49,7 @@ class BodyPublisher {
 };
 
 engine::Error cannot_move() {
-  return {engine::ErrorCode::kInvalidArgument, "The session's bodies do not move.",
+  return {engine::ErrorCode::kInvalidArgument, "The bodies of this session do not move.",
           "Make it with SessionOptions::moves."};
 }
 
@@ -142,7 +142,7 @@ FrameOutcome Session::frame(double dt_s) {
   outcome.timing = s.pipeline.frame([&](const engine::Context& context) {
     s.take_results(outcome);
     outcome.has_body = s.body != nullptr;
-    if (!s.body) return;  // without a body the garments would fall to the floor before the first one is ready
+    if (!s.body) return;  // otherwise garments would fall to the floor before the first body is ready
     outcome.proxy_hash = s.body->live.proxy.hash();
     if (s.solver && !s.held) s.hold_garments(context);
     s.pose(context, dt_s);
@@ -152,10 +152,11 @@ FrameOutcome Session::frame(double dt_s) {
     outcome.plays = true;
     outcome.clip_s = s.motion->playback->time_s();
     outcome.ramp_left_s = s.motion->playback->ramp_left_s();
-    // While a slider moves, tables of a pose would be those of a shape that is about to go.
+    // While a slider moves, a refit would be for a shape that is about to be replaced.
     const bool keeps_shape = s.shapes_done == s.shapes_begun && s.wanted_shape.empty();
     if (s.options.refits && !s.nothing_runs_behind && keeps_shape)
-      s.refits.consider(s.body->live.skin, s.body->live.proxy, *s.body->body, *s.motion->playback, s.paused);
+      s.refits.begin_if_needed(s.body->live.skin, s.body->live.proxy, *s.body->body, *s.motion->playback,
+                               s.paused);
   }
   return outcome;
 }

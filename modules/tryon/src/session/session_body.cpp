@@ -12,7 +12,7 @@ engine::Result<std::shared_ptr<const SessionMotion>> session_motion_of_shape(
     const engine::Context& context, const SessionMotion& before, std::shared_ptr<const SegmentedSkin> skin) {
   auto motion = motion_of_shape(context, *skin, before.choice, before.playback->motion());
   if (!motion) return std::move(motion).error();
-  // Made motions are made again. A seam of the same length keeps the time within the loop.
+  // A made motion is made anew. A seam of the same length keeps the time within the loop valid.
   const double seam_s = before.playback->motion().clip.duration_s - motion->clip.duration_s;
   if (before.mode == rig::Playback::kLoop) motion->clip = rig::close_loop(motion->clip, seam_s);
   auto same = std::make_shared<SessionMotion>(before);

@@ -1,4 +1,4 @@
-// What a session's frames take at a boundary, prepared behind them.
+// The results that are prepared behind the frames of a session, and come into use at a frame boundary.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +20,9 @@ struct WantedClip {
   PlayOptions options;
 };
 
-/// The clip as one body plays it.
+/// A clip for one body, with its playback.
 struct SessionMotion {
-  std::uint64_t number = 0;  ///< of the wanted clip
+  std::uint64_t number = 0;  ///< number of the wanted clip
   MotionChoice choice;
   std::shared_ptr<const SegmentedSkin> skin;
   std::shared_ptr<ClipPlayback> playback;  ///< changed by the frames' thread alone
@@ -30,7 +30,7 @@ struct SessionMotion {
   rig::Playback mode = rig::Playback::kLoop;
 };
 
-/// What a session's bodies wear.
+/// The garments of a session.
 struct Worn {
   std::shared_ptr<const Wardrobe> all;  ///< null: nothing
   double thickness_m = 0.0;
@@ -43,22 +43,22 @@ struct HeldVertices {
   rig::SkinWeights weights;          ///< empty where the body stands still
 };
 
-/// A body as it is published.
+/// A body that is ready for frames, as it is published.
 struct SessionBody {
   LiveBody live;
   std::shared_ptr<const SegmentedSkin> origin;  ///< the skin that was loaded, of which live.skin is a shape
   std::shared_ptr<const proxy::BodyProxy> origin_proxy;
   std::shared_ptr<MovingBody> body;             ///< changed by the frames' thread alone
-  std::shared_ptr<const SessionMotion> motion;  ///< null: none was wanted when it was submitted
-  HeldVertices held;                            ///< the vertices that it held when it was made
+  std::shared_ptr<const SessionMotion> motion;  ///< null: no clip was wanted when the body was submitted
+  HeldVertices held;  ///< held vertices of the garments that were worn when the body was made
 };
 
-/// Puts a body into its bind pose and finds where it holds the garments there. Cost: a pose, and a closest
-/// point a held vertex.
+/// Puts a body into its bind pose, and finds the positions of the held vertices there. Cost: a pose, and a
+/// closest point a held vertex.
 HeldVertices hold(const engine::Context& context, const Worn& worn, const SegmentedSkin& skin,
                   MovingBody& body);
 
-/// A body ready for frames; its proxy is bound where it `moves`.
+/// Makes a body ready for frames. Precondition: its proxy is bound if `moves` is true.
 engine::Result<std::shared_ptr<const SessionBody>> make_session_body(
     const engine::Context& context, LiveBody live, bool moves, std::shared_ptr<const SessionMotion> motion,
     const Worn& worn);

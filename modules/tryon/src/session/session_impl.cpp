@@ -4,8 +4,8 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// Held vertices are found in the bind pose: where the body was made, or here after a change of garments,
-/// which allocates.
+/// Finds the held vertices in the bind pose. They were found when the body was made, unless the garments have
+/// changed since; finding them here allocates.
 void Session::Impl::hold_garments(const engine::Context& context) {
   held = &body->held;
   if (held->of != wardrobe) {
@@ -13,15 +13,15 @@ void Session::Impl::hold_garments(const engine::Context& context) {
     held = &held_now;
     jumped = true;
   }
-  const bool goes_over = body->body->share_before() > 0.0 && held_at_rest.size() == held->bind.size();
+  const bool goes_over = body->body->blend_share() > 0.0 && held_at_rest.size() == held->bind.size();
   held_before = goes_over ? held_at_rest : held->bind;
   held_at_rest = posed = held_before;
   solver->move_pins(posed);
 }
 
-/// Held vertices go with the body's shape and pose.
+/// Moves the held vertices with the body's shape and pose.
 void Session::Impl::move_held() {
-  const double share = body->body->share_before();
+  const double share = body->body->blend_share();
   for (std::size_t i = 0; i < held_at_rest.size(); ++i)
     held_at_rest[i] = held->bind[i] + share * (held_before[i] - held->bind[i]);
   if (body->body->moves())
@@ -33,7 +33,7 @@ void Session::Impl::move_held() {
 
 void Session::Impl::take_body(std::shared_ptr<const SessionBody> next) {
   if (body && body->origin_proxy == next->origin_proxy) {
-    next->body->come_from(*body->body);
+    next->body->start_blend_from(*body->body);
     new_shape = true;
   } else {
     jumped = true;
@@ -48,13 +48,13 @@ void Session::Impl::take_body(std::shared_ptr<const SessionBody> next) {
     find_wanted_clip();
 }
 
-/// A clip begins with its ramp, or goes on where another body was in the same clip.
+/// Starts a clip with its ramp, or continues at the time that another body had reached in the same clip.
 void Session::Impl::take_motion(std::shared_ptr<const SessionMotion> next) {
   ClipPlayback& playback = *next->playback;
   const bool goes_on = motion && motion->number == next->number;
   const bool same_joints = motion && motion->skin == next->skin;
   if (goes_on) {
-    playback.go_on_as(*motion->playback);
+    playback.continue_from(*motion->playback);
   } else {
     playback.start_from_bind(0.0, next->ramp_s);
     if (same_joints) playback.start_from(motion->playback->joints(), 0.0, next->ramp_s);
@@ -115,8 +115,8 @@ void Session::Impl::take_results(FrameOutcome& outcome) {
 void Session::Impl::pose(const engine::Context& context, double dt_s) {
   MovingBody& moving = *body->body;
   if (!motion || motion->skin != body->live.skin) {
-    if (!(moving.share_before() > 0.0)) return;
-    moving.go_over(dt_s);
+    if (!(moving.blend_share() > 0.0)) return;
+    moving.advance_blend(dt_s);
     moving.show_shape(context);
     if (solver) move_held();
     return;
@@ -131,8 +131,8 @@ void Session::Impl::pose(const engine::Context& context, double dt_s) {
   if (std::exchange(new_shape, false) && !jumped)
     static_cast<void>(moving.pose(context, playback.joints(), 0.0, where));
   if (!paused) playback.advance(dt_s);
-  moving.go_over(dt_s);
-  // The velocity of a jump is none of the surface's.
+  moving.advance_blend(dt_s);
+  // The surface has no velocity in a jump.
   if (auto done = moving.pose(context, playback.joints(), jumped ? 0.0 : dt_s, where); !done) return;
   jumped = false;
   if (solver) move_held();

@@ -1,4 +1,4 @@
-// What a session holds, and what it does at a frame boundary.
+// The state of a session, and its steps at a frame boundary.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// A shape that a slider requested, in the order of the requests; null: it failed.
+/// A requested shape of the body, numbered by requests. A null body means that the request failed.
 struct SessionShape {
   std::uint64_t number = 0;
   std::shared_ptr<const SessionBody> body;
@@ -52,9 +52,11 @@ struct Session::Impl {
   std::uint64_t shapes_begun = 0, shapes_done = 0;
   engine::Ticket reshape;  ///< the last one; after a failure nothing of it is published
 
-  HeldVertices held_now;               // found in a frame: a body that wore something else when it was made
+  HeldVertices held_now;  // held vertices that were found in a frame, because the garments changed after the
+                          // body was made
   const HeldVertices* held = nullptr;  // null: to be found in the next frame
-  std::vector<geometry::Vec3> held_before, held_at_rest, posed;  // in the shape before, now, and in the pose
+  // Positions in the earlier shape, in the present shape, and in the pose.
+  std::vector<geometry::Vec3> held_before, held_at_rest, posed;
   std::vector<geometry::Vec3> cloth;  // #vertices of all garments, after the last frame
   std::optional<GarmentReach> reach;  // of the garments
 
