@@ -1,5 +1,5 @@
-// Tables solved anew in a pose, judged by the exact signed distance of the posed skin; their files; and that
-// they come into use without a jump.
+// Base poses: their error against the exact signed distance of the posed skin, their files, and their use
+// without a jump.
 
 #include <doctest/doctest.h>
 
@@ -68,7 +68,8 @@ geometry::TriMesh skin_at(std::span<const rig::Affine> joints) {
   return posed;
 }
 
-/// Points within 30 mm of the posed skin with their exact distances; none in or under overlapping skin.
+/// Points within 30 mm of the posed skin with their exact distances. Points in or under skin that overlaps
+/// itself are left out.
 std::vector<std::pair<Vec3, double>> truth_at(std::span<const rig::Affine> joints) {
   const geometry::TriMesh skin = skin_at(joints);
   const geometry::MeshDistance distance({}, skin);
@@ -118,7 +119,8 @@ bool same_bytes(const proxy::BasePose& a, const proxy::BasePose& b) {
 
 }  // namespace
 
-TEST_CASE("tables solved anew in a seat err by less than .4 mm on average, and by less than those carried") {
+TEST_CASE(
+    "tables solved anew for a seat have a mean error below 0.4 mm, less than tables carried from rest") {
   const auto truth = truth_at(sitter().seat);
   binding::Poser posed = poser();
   REQUIRE(posed.pose({}, sitter().seat));
@@ -135,7 +137,7 @@ TEST_CASE("tables solved anew in a seat err by less than .4 mm on average, and b
   CHECK(mean_mm < 0.85 * carried_mm);
 }
 
-TEST_CASE("a base pose leaves the pose at rest as it is") {
+TEST_CASE("a base pose does not change the proxy at rest") {
   std::vector<rig::Affine> rest;
   for (const rig::Joint& joint : sitter().body.skin.rig->skeleton.joints) rest.push_back(joint.bind);
   const auto truth = truth_at(rest);
@@ -157,7 +159,7 @@ TEST_CASE("a refit has the same bits for 1, 2, 3 and 7 workers") {
   }
 }
 
-TEST_CASE("a base pose that comes into use over ten poses moves the surface by little in each") {
+TEST_CASE("a base pose that comes into use over ten poses moves the surface a little in each") {
   const auto base = seated();
   const auto truth = truth_at(sitter().seat);
   const auto farthest_mm = [&](int poses) {
@@ -183,8 +185,7 @@ TEST_CASE("a base pose that comes into use over ten poses moves the surface by l
   CHECK(blended_mm < 0.6 * at_once_mm);
 }
 
-TEST_CASE(
-    "base poses are saved with their proxy in either form, and readers of the proxy alone still read it") {
+TEST_CASE("base poses are saved with their proxy as text and binary; readers of the proxy alone skip them") {
   const bodice_test::TempFolder folder;
   const proxy::BodyProxy& bound = sitter().body.fit.proxy;
   const proxy::ProxyWithBases both{bound, {seated(), seated()}};
@@ -206,7 +207,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("base poses that were damaged, or are of another proxy, are refused in one sentence") {
+TEST_CASE("base poses that are damaged or belong to another proxy are refused with one sentence") {
   const bodice_test::TempFolder folder;
   const proxy::BodyProxy& bound = sitter().body.fit.proxy;
   const auto file = folder / "seat.bodice";
@@ -231,7 +232,7 @@ TEST_CASE("base poses that were damaged, or are of another proxy, are refused in
   CHECK(bad.error().sentence().find(bound.binding()->joint_names[3]) != std::string::npos);
 }
 
-TEST_CASE("a prepared clip has a base pose near each of its poses, in the order of time") {
+TEST_CASE("a prepared clip has a base pose near each of its poses, ordered by time") {
   const Body& b = sitter();
   std::vector<engine::Warning> warnings;
   const auto motion = tryon::find_motion({}, b.body.skin, {.motion = "sit"}, warnings);

@@ -1,4 +1,4 @@
-// What fit writes of a body beside its proxy: regions of its vertices, and a map of errors.
+// The files of a body beside its proxy: the segmentation of its vertices and the error map.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -20,8 +20,7 @@ using namespace bodice;
 using bodice_test::TempFolder;
 using geometry::Vec3;
 
-TEST_CASE(
-    "a segmentation has every vertex of the file once, by the part it belongs to, and what lies inside") {
+TEST_CASE("a segmentation lists every vertex of the file once: by its region, or as internal") {
   const tryon::SegmentedSkin& skin = builtin_skin(3000);
   std::vector<Vec3> vertices;
   for (const Vec3& p : skin.input.skin.positions) vertices.push_back(skin.input.frame.to_file(p));
@@ -53,7 +52,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("an error map has the exact distance of each vertex, and colors that end where 98 % have less") {
+TEST_CASE("an error map has exact distances, and its colors end where 98 % of the vertices have less error") {
   const tryon::PreparedBody& body = builtin_body(3000, proxy::Tier::kSolid);
   const tryon::ErrorMap map = tryon::error_map({}, body);
   const std::vector<Vec3>& points = body.skin.input.skin.positions;
@@ -76,7 +75,7 @@ TEST_CASE("an error map has the exact distance of each vertex, and colors that e
   CHECK(map.limit_m > 0.001);
 }
 
-TEST_CASE("positions of an OBJ are those of its lines, and what is none is refused with its line") {
+TEST_CASE("positions of an OBJ are read line by line; an invalid one is refused with its line number") {
   const TempFolder folder;
   const auto write = [&](const char* text) { std::ofstream(folder / "a.obj") << text; };
   write("# head\nv 1 2.5 -3e-2\nvn 0 0 1\nvt 0 1\nv  4\t5 6 0.5 0.5 0.5\r\nf 1 2 1\nv +7 8 9\n");

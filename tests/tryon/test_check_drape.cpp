@@ -1,4 +1,4 @@
-// What a drape refuses before it begins.
+// Inputs that a drape refuses before its first frame.
 
 #include <doctest/doctest.h>
 
@@ -10,7 +10,7 @@
 
 using namespace bodice;
 
-TEST_CASE("the skin of the body is refused as its garment, a copy that lies off it or a part of it is not") {
+TEST_CASE("the body's own skin is refused as a garment; an offset copy or a part of it is not") {
   const tryon::PreparedBody& body = builtin_body(2000, proxy::Tier::kTight);
   const geometry::TriMesh& skin = body.skin.input.skin;
   tryon::DrapeOptions options;

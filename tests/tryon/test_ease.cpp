@@ -1,4 +1,4 @@
-// How garments lie, on balls with known gaps and strains.
+// The ease of garments, on balls with known gaps and strains.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ std::vector<Vec3> scaled(const geometry::TriMesh& mesh, double below, double abo
 
 }  // namespace
 
-TEST_CASE("ease: a ball of cloth lies as far off as its radius, by part") {
+TEST_CASE("ease: the gap of a ball of cloth is the difference of the radii, for each part") {
   const Ball ball;
   const geometry::TriMesh rest = bodice_test::icosphere(0.2, 5);
   const auto ease = ball.ease({}, rest, scaled(rest, 1.02, 1.10));
@@ -61,7 +61,7 @@ TEST_CASE("ease: cloth that is stretched evenly has that strain everywhere") {
   }
 }
 
-TEST_CASE("ease: cloth that is compressed has no strain, cloth inside the skin a negative gap") {
+TEST_CASE("ease: compressed cloth has no strain, and cloth inside the skin has a negative gap") {
   const Ball ball;
   const geometry::TriMesh rest = bodice_test::icosphere(0.2, 4);
   for (const tryon::PartEase& part : ball.ease({}, rest, scaled(rest, 0.9, 0.9))) {

@@ -1,5 +1,5 @@
 // All of preprocessing and draping on generated bodies: body -> parts -> proxy -> garment -> drape -> report.
-// Every number in the report is checked against what is known of the input.
+// Every number in the report is compared with the known truth of the input.
 
 #include <doctest/doctest.h>
 
@@ -48,7 +48,7 @@ TEST_CASE("a generated body is measured, dressed and draped") {
   const tryon::PreparedBody& body = builtin_body(kBodyVertices, proxy::Tier::kSolid);
   CHECK(body.skin.anatomy.stature_m == doctest::Approx(1.68).epsilon(0.02));
   CHECK(body.fit.accuracy.interior_covered_percent > 99.0);
-  CHECK(body.fit.accuracy.gap_m.mean < 0.009);  // 6 mm; that it leaks nowhere must not double it
+  CHECK(body.fit.accuracy.gap_m.mean < 0.009);  // 6 mm; closing leaks must not make it twice as large
 
   const auto draped = tryon::drape(context, body, {skirt_for(context, body.skin)}, {.frames = 40});
   REQUIRE_MESSAGE(draped.ok(), draped.error().sentence());
@@ -67,7 +67,7 @@ TEST_CASE("a generated body is measured, dressed and draped") {
   CHECK(height < 0.66 * 1.68);
 }
 
-TEST_CASE("tier solid: no ellipsoid stands far out in the air behind hollow backs") {
+TEST_CASE("tier solid: no ellipsoid lies far outside of the skin behind a hollow back") {
   // Fitted to samples of the skin alone, ellipsoids stand 92, 108, 286 and 145 mm out of these bodies.
   for (const std::uint64_t seed : {46, 97, 111, 133}) {
     CAPTURE(seed);
@@ -249,7 +249,7 @@ TEST_CASE("an ellipsoid carries the part of the skin that it stands for, whereve
     CHECK_MESSAGE(part.ellipsoids > 0, body::name(part.part));
 }
 
-TEST_CASE("solid with very few ellipsoids encloses the parts instead of growing far beyond them") {
+TEST_CASE("tier solid: very few ellipsoids enclose the parts and do not grow far beyond them") {
   auto skin = tryon::segment_builtin({}, {}, {});
   REQUIRE(skin.ok());
   const auto solid =
@@ -259,7 +259,7 @@ TEST_CASE("solid with very few ellipsoids encloses the parts instead of growing 
   CHECK(solid->accuracy.skin_outside_depth_m <= 1e-9);
 }
 
-TEST_CASE("a garment that begins deep in a wide proxy is lifted out of it, untorn and untangled") {
+TEST_CASE("a garment that begins deep in a wide proxy is lifted out of it without tears or tangles") {
   // The back of this body is hollow at the waist, which the ellipsoids of the solid tier fill: 48 mm of them
   // cover the waistband.
   for (const proxy::Tier tier : {proxy::Tier::kSolid, proxy::Tier::kTight}) {

@@ -11,6 +11,7 @@
 #include <bodice_test/shapes.hpp>
 
 #include "builtin.hpp"
+#include "measure/fit_warnings.hpp"
 
 using namespace bodice;
 using geometry::Vec3;
@@ -54,6 +55,19 @@ bool has(const std::vector<std::string>& codes, const char* code) {
   return std::ranges::find(codes, code) != codes.end();
 }
 
+/// The length that a garment lacks around a part, millimeters; 0 where the part has too little cloth to
+/// judge.
+double lacks_mm(const tryon::PartEase& part, const cloth::Fabric& fabric) {
+  return part.area_m2 < 0.01 ? 0.0 : 1e3 * (part.strain_mean - fabric.max_stretch) * part.girth_m;
+}
+
+/// Whether the message names the part together with this length, rounded to millimeters.
+bool names_part(const std::string& message, body::Part part, double mm) {
+  const std::string name(body::name(part)), length = std::to_string(std::lround(mm)) + " mm";
+  return message.find("around " + name + " it lacks " + length) != std::string::npos ||
+         message.find(name + " (" + length + ")") != std::string::npos;
+}
+
 }  // namespace
 
 TEST_CASE("fit map: colors run from dark blue over pale yellow to dark red, and stay beyond the ends") {
@@ -84,6 +98,33 @@ TEST_CASE("fit map: the ease of a vertex is its distance to the skin, the strain
   for (const double strain : tryon::strain_of_vertices(ball, now)) CHECK(strain == 0.0);
 }
 
+TEST_CASE("fit: too-tight names each part that is at least 1 cm too tight, the tightest part first") {
+  const auto cotton = cloth::find_fabric("cotton");
+  REQUIRE(cotton.ok());
+  REQUIRE(cotton->max_stretch == 0.04);
+  using enum body::Part;
+  const std::vector<tryon::PartEase> end = {
+      {.part = kForearmL, .area_m2 = 0.02, .strain_mean = 0.14, .girth_m = 0.2},   // lacks 20 mm
+      {.part = kThighL, .area_m2 = 0.03, .strain_mean = 0.09, .girth_m = 0.6},     // lacks 30 mm
+      {.part = kUpperArmL, .area_m2 = 0.03, .strain_mean = 0.07, .girth_m = 0.3},  // lacks 9 mm
+      {.part = kCalfL, .area_m2 = 0.005, .strain_mean = 0.2, .girth_m = 0.4},      // has too little cloth
+      {.part = kCalfR, .area_m2 = 0.02, .strain_mean = 0.08, .girth_m = 0.35}};    // lacks 14 mm
+  const tryon::WornGarment garment{.name = "suit"};
+  const Vec3 up = Vec3::UnitY();
+  std::vector<engine::Warning> warnings;
+  tryon::warn_of_fit({garment, {}, end, {}, up, false}, *cotton, warnings);
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].code == "too-tight");
+  CHECK(warnings[0].part == "suit");
+  CHECK(warnings[0].message ==
+        "The garment is too tight: around thigh_l it lacks 30 mm (stretched by 9 %, cotton yields by 4 %); "
+        "also around forearm_l (20 mm), calf_r (14 mm).");
+  tryon::warn_of_fit({garment, {}, std::span(end).subspan(1, 1), {}, up, false}, *cotton, warnings);
+  REQUIRE(warnings.size() == 2);
+  CHECK(warnings[1].message ==
+        "The garment is too tight: around thigh_l it lacks 30 mm (stretched by 9 %, cotton yields by 4 %).");
+}
+
 TEST_CASE("fit: a tube too small around the hips is too tight there by what it lacks, one that fits is not") {
   const auto executor = bodice_test::make_threads(2);
   const engine::Context context{.executor = executor.get()};
@@ -94,7 +135,19 @@ TEST_CASE("fit: a tube too small around the hips is too tight there by what it l
   const auto tight = std::ranges::find(small->report.warnings, "too-tight", &engine::Warning::code);
   REQUIRE(tight != small->report.warnings.end());
   CHECK(tight->part == "tube");
-  CHECK_MESSAGE(tight->message.find(" mm (stretched by ") != std::string::npos, tight->message);
+  const auto cotton = cloth::find_fabric("cotton");
+  REQUIRE(cotton.ok());
+  CAPTURE(tight->message);
+  std::vector<body::Part> named;
+  for (const tryon::PartEase& part : small->report.garments[0].ease) {
+    const double mm = lacks_mm(part, *cotton);
+    CAPTURE(body::name(part.part));
+    CHECK(names_part(tight->message, part.part, mm) == (mm >= 10.0));
+    if (mm >= 10.0) named.push_back(part.part);
+  }
+  // The tube lies around the lower trunk.
+  for (const body::Part hip : {body::Part::kTorsoLL, body::Part::kTorsoLR})
+    CHECK(std::ranges::find(named, hip) != named.end());
   REQUIRE(small->garments[0].colors.size() == small->garments[0].mesh.positions.size());
   CHECK(small->report.fit_map->tight > 0.0);
 

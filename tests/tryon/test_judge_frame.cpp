@@ -1,4 +1,4 @@
-// What judges the frames of a body that moves, on shapes with known distances.
+// The measures of a moving body's frames, on shapes with known distances.
 
 #include <doctest/doctest.h>
 
@@ -37,12 +37,13 @@ geometry::TriMesh two_balls(const Vec3& left, const Vec3& right) {
 
 }  // namespace
 
-TEST_CASE("the error of a ball that is too large is the difference of the radii, all of it false") {
+TEST_CASE(
+    "the error of a ball of a wrong radius is the difference of the radii; if too large, none is missed") {
   const geometry::TriMesh skin = bodice_test::icosphere(0.2, 5, Vec3(0.1, 1.0, 0.0));
   const geometry::MeshDistance distance({}, skin);
   const auto exact =
       tryon::measure_proxy_error({}, ball_collider({{0.1, 1.0, 0.0}}, 0.2), skin, distance, 0.03);
-  CHECK(exact.error_m.max < 1e-3);  // of the sphere's facets
+  CHECK(exact.error_m.max < 1e-3);  // error of the sphere's facets
   CHECK(exact.missed_share == 0.0);
   const auto large =
       tryon::measure_proxy_error({}, ball_collider({{0.1, 1.0, 0.0}}, 0.21), skin, distance, 0.03);
@@ -55,7 +56,7 @@ TEST_CASE("the error of a ball that is too large is the difference of the radii,
   CHECK(small.missed_share == doctest::Approx(0.15).epsilon(0.15));
 }
 
-TEST_CASE("the error of a proxy is by area, however fine a part of the skin is") {
+TEST_CASE("the error of a proxy is weighted by area, whatever the density of the mesh") {
   const Vec3 coarse(0.0, 1.0, 0.0), fine(1.0, 1.0, 0.0);
   const geometry::TriMesh skin =
       bodice_test::joined(bodice_test::icosphere(0.2, 3, coarse), bodice_test::icosphere(0.2, 5, fine));
@@ -71,7 +72,7 @@ TEST_CASE("the error of a proxy is by area, however fine a part of the skin is")
         doctest::Approx(0.0052).epsilon(0.05));
 }
 
-TEST_CASE("skin that lies under another layer of the body counts for nothing") {
+TEST_CASE("skin that is buried in the body does not count") {
   const Vec3 left(0.0, 1.0, 0.0), right(0.25, 1.0, 0.0);
   const geometry::TriMesh skin = two_balls(left, right);
   const geometry::MeshDistance distance({}, skin);
@@ -97,7 +98,7 @@ TEST_CASE("the area of cloth inside the skin is that of the disc where a sheet c
   CHECK(tryon::cloth_inside({}, distance, corners, sheet, 0.02).shown_m2 == 0.0);
 }
 
-TEST_CASE("cloth where two balls overlap counts apart, with any number of workers") {
+TEST_CASE("cloth where two balls overlap is counted separately, with any number of workers") {
   const geometry::TriMesh skin = two_balls({-0.125, 0.0, 0.0}, {0.125, 0.0, 0.0});
   const geometry::MeshDistance distance({}, skin);
   const auto executor = bodice_test::make_threads(3);

@@ -9,7 +9,7 @@
 
 using namespace bodice;
 
-TEST_CASE("lumps of relief on a skin with folds are in the largest gap that is reported") {
+TEST_CASE("the largest reported gap includes lumps of relief on a skin with folds") {
   const auto file = bodice_test::data_file("rigs/thirdparty/posed_Female_Walking.fbx");
   if (!file) return;
   const auto skin = tryon::segment_file({}, *file, {});
@@ -23,7 +23,7 @@ TEST_CASE("lumps of relief on a skin with folds are in the largest gap that is r
     largest_m = std::max(largest_m, skin->distance->signed_distance(p));
   CAPTURE(largest_m);
   const double reported_m = body->fit.accuracy.gap_m.max;
-  CHECK(largest_m > 0.02);  // else the file does not show what this is about
+  CHECK(largest_m > 0.02);  // otherwise the file would not have the lumps that this tests
   CHECK(reported_m > 0.5 * largest_m);
   CHECK(reported_m < largest_m + 0.005);
 }

@@ -51,7 +51,7 @@ struct Layers {
 
 }  // namespace
 
-TEST_CASE("layers: garments that cross are laid over each other in the given order, either one") {
+TEST_CASE("layers: two garments that cross are laid over each other in either order") {
   const Layers l;
   CHECK(crossings(l.garments) > 100);
   for (const bool tucked : {true, false}) {

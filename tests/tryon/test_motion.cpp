@@ -1,4 +1,4 @@
-// A body that moves: where its motion comes from, and drapes on it.
+// A moving body: the sources of its motion, and drapes on it.
 
 #include <doctest/doctest.h>
 
@@ -74,7 +74,7 @@ Walker walker(const engine::Context& context, const char* motion, proxy::Tier ti
 
 }  // namespace
 
-TEST_CASE("a clip that a file does not have is refused, and the motion's name is taken before files") {
+TEST_CASE("a made motion is found by its name without a file, and a missing file is refused by its name") {
   const synth::BodyOptions builtin{.vertices = 2600};
   auto rigged = tryon::segment_builtin({}, builtin, {});
   REQUIRE_MESSAGE(rigged.ok(), rigged.error().sentence());
@@ -86,7 +86,7 @@ TEST_CASE("a clip that a file does not have is refused, and the motion's name is
   CHECK(missing.error().sentence().find("no_such_file.glb") != std::string::npos);
 }
 
-TEST_CASE("a skirt stays on a body that walks, and each kept frame is judged by the posed skin") {
+TEST_CASE("a skirt stays on a walking body, and each kept frame is measured against the posed skin") {
   const auto executor = bodice_test::make_threads(2);
   const engine::Context context{.executor = executor.get()};
   const Walker w = walker(context, "walk");
@@ -120,7 +120,7 @@ TEST_CASE("a skirt stays on a body that walks, and each kept frame is judged by 
   CHECK(high < 0.7 * 1.68);
 }
 
-TEST_CASE("cloth keeps off a body that squats what of the skin stands out, after the posed proxy covers it") {
+TEST_CASE("on a squatting body a small thickness suffices, because the posed proxy covers the skin") {
   Walker w = walker({}, "squat", proxy::Tier::kRelief);
   const tryon::SegmentedSkin& skin = w.body.skin;
   std::vector<geometry::Index> under;  // the vertices of the skin under a tight garment
@@ -162,7 +162,7 @@ TEST_CASE("cloth keeps off a body that squats what of the skin stands out, after
   CHECK(beyond_covering < 0.015 * points);
 }
 
-TEST_CASE("a clip that is prepared has a nearer proxy in its frames, in the part of it that is played") {
+TEST_CASE("a prepared clip has a smaller proxy error in its frames, as far as it is played") {
   Walker w = walker({}, "squat", proxy::Tier::kRelief);
   w.worn = {{.name = "sheet", .mesh = bodice_test::sheet(0.1, 0.1, 2, 2), .held = {}}};
   for (Vec3& p : w.worn[0].mesh.positions) p.y() += 3.0;  // high enough to meet nothing
@@ -189,7 +189,7 @@ TEST_CASE("a clip that is prepared has a nearer proxy in its frames, in the part
   CHECK(near.proxy_error.error_m.mean < 0.85 * far.proxy_error.error_m.mean);
 }
 
-TEST_CASE("cloth meets the proxy of a clip that is prepared, and not only the report does") {
+TEST_CASE("cloth collides with the proxy of the prepared clip, not only the report uses it") {
   Walker w = walker({}, "walk", proxy::Tier::kRelief);
   std::vector<geometry::Index> under;
   w.worn = {tight_shorts(w.body.skin, under)};
@@ -247,7 +247,7 @@ TEST_CASE("without a ramp the first kept frame shows the clip's first pose, not 
   CHECK(from_bind_m > 0.05);
 }
 
-TEST_CASE("a drape in a loop leads back to the clip's start without a jump, and keeps all laps of the clip") {
+TEST_CASE("a drape of a looping clip returns to the clip's start without a jump, and returns all laps") {
   Walker w = walker({}, "walk");
   w.motion.clip.duration_s *= 0.4;  // its end is far from its start
   geometry::TriMesh sheet = bodice_test::sheet(0.2, 0.2, 4, 4);
@@ -273,11 +273,11 @@ TEST_CASE("a drape in a loop leads back to the clip's start without a jump, and 
     fastest_m = std::max(fastest_m, farthest_m(frame, frame - 1));
     if (frame <= end) fastest_in_clip_m = std::max(fastest_in_clip_m, farthest_m(frame, frame - 1));
   }
-  CHECK(farthest_m(end, 0) > 4.0 * fastest_in_clip_m);  // what a jump would be
+  CHECK(farthest_m(end, 0) > 4.0 * fastest_in_clip_m);  // the distance of a jump
   CHECK(fastest_m < 2.5 * fastest_in_clip_m);
 }
 
-TEST_CASE("a body with a rig that its proxy is not bound to does not move, and both are counted") {
+TEST_CASE("a proxy that is bound to another rig is refused, and the message has both numbers of joints") {
   Walker w = walker({}, "walk");
   auto other = std::make_shared<rig::Rig>(*w.body.skin.rig);
   const std::size_t joints = other->skeleton.joints.size();

@@ -1,4 +1,4 @@
-// The joints of a body over time: the ramp to its clip, the clip, and what is attached to its skin.
+// The joints of a body over time: the ramp to its clip, the clip, and points that are attached to its skin.
 
 #include <doctest/doctest.h>
 
@@ -49,7 +49,7 @@ double turn_of(const rig::Affine& world) {
 
 }  // namespace
 
-TEST_CASE("a ramp leads from the bind pose to the first frame, and the clip follows") {
+TEST_CASE("a ramp leads from the bind pose to the clip's first frame, and then the clip plays") {
   const tryon::BodyMotion motion = elbow(2);
   tryon::MotionPlayer player(motion, 0.5);
   std::vector<rig::Affine> world(2);
@@ -81,8 +81,8 @@ TEST_CASE("a ramp ends with the velocity of the clip, and turns no joint farther
   CHECK((turn_of(world[1]) - before) / kStep_s == doctest::Approx(speed_rad_s).epsilon(0.01));
   for (int step = 0; step <= 100; ++step) {
     player.joints(-0.005 * step, world);
-    CHECK(std::abs(turn_of(world[1])) <=
-          0.2 + 1e-9);  // from the bind pose to the clip's first turn, no overshoot
+    // From the bind pose to the clip's first turn, no overshoot.
+    CHECK(std::abs(turn_of(world[1])) <= 0.2 + 1e-9);
   }
 }
 
@@ -102,7 +102,7 @@ TEST_CASE("a ramp does not jump where the clip that it leads to starts over") {
   CHECK(longest < 0.05);  // The clip turns by 0.027 in a millisecond, and by 1.4 where it starts over.
 }
 
-TEST_CASE("the suggested ramp is as long as the skin's path at walking pace, and absent without one") {
+TEST_CASE("the suggested ramp takes the time of the skin's path at the speed of a walking hand, or none") {
   std::vector<Vec3> skin = {{0.0, 0.0, 0.0}, {1.0, 1.0, 0.0}};  // the second is a meter from its joint
   tryon::BodyMotion motion = elbow(2);
   CHECK(tryon::suggested_ramp_s({}, motion, skin) == doctest::Approx(0.25));  // 0.2 m at 1 m/s: the least
@@ -112,7 +112,7 @@ TEST_CASE("the suggested ramp is as long as the skin's path at walking pace, and
   CHECK(tryon::suggested_ramp_s({}, motion, skin) == 0.0);
 }
 
-TEST_CASE("a loop is closed by a seam on which the skin is about as fast as in the clip") {
+TEST_CASE("a loop is closed by a seam in which the skin is about as fast as in the clip") {
   const std::vector<Vec3> skin = {{0.0, 0.0, 0.0}, {1.0, 1.0, 0.0}};  // the second is a meter from its joint
   tryon::BodyMotion motion = elbow(2);
   const double arc_rad = kTurn_rad - 0.2;

@@ -1,4 +1,4 @@
-// Users rely on the figures of penetration, so that they are checked on a ball, where the depth is known.
+// The figures of penetration, which users rely on, are checked on a ball with known depths.
 
 #include <doctest/doctest.h>
 
@@ -65,7 +65,7 @@ std::size_t count_at(double depth_m, double radius_m, bool relief) {
 
 }  // namespace
 
-TEST_CASE("particles inside a proxy are counted from the tolerance on, with relief by the lifted surface") {
+TEST_CASE("particles deeper in a proxy than the tolerance are counted, with relief from the raised surface") {
   CHECK(count_at(1e-4, 0.2, false) == 600);
   CHECK(count_at(3e-6, 0.2, false) == 600);  // the tolerance is 1e-6 statures
   CHECK(count_at(1e-6, 0.2, false) == 0);
@@ -83,7 +83,7 @@ TEST_CASE("positions that are not finite are not counted as inside a proxy") {
   CHECK(tryon::count_inside({}, ball(false), positions) == 1);
 }
 
-TEST_CASE("cloth keeps its thickness and the proxy's error away, and coarse cloth no more than fine cloth") {
+TEST_CASE("the distance of cloth is half its thickness plus the proxy's error, for coarse and fine cloth") {
   const engine::Context context;
   const geometry::MeshDistance skin(context, bodice_test::icosphere(0.2, 5));
   auto thickness = [&](double radius, double gap_m, int halvings) {

@@ -46,7 +46,7 @@ struct InTunic {
 
 }  // namespace
 
-TEST_CASE("placement: a garment on its body stays to the bit, without a word") {
+TEST_CASE("placement: a garment on its body keeps its bits, without a warning") {
   const InTunic dressed;
   geometry::TriMesh mesh = dressed.tunic;
   const auto placed = dressed.put_on(mesh);
@@ -121,7 +121,7 @@ TEST_CASE("placement: a garment 12 or 20 cm in front of its body is moved back o
   }
 }
 
-TEST_CASE("placement: what lies nowhere near the body in any unit is refused, with size and distance") {
+TEST_CASE("placement: a garment far from the body in every unit is refused with its size and distance") {
   const InTunic dressed;
   geometry::TriMesh mesh = dressed.changed([](const Vec3& p) { return Vec3(p + Vec3(40.0, 0.0, 0.0)); });
   const auto placed = dressed.put_on(mesh);

@@ -27,8 +27,8 @@ TEST_CASE(
     "colliders of real rigs that walk, sit, squat and raise their arms have the distances and owners of the "
     "reference, on every instruction set") {
   const engine::Context context;
-  // The same dozen points before one flat ellipsoid have a buried owner to first order in every pose, so that
-  // a rate over both bodies varies less than one of each pose.
+  // In every pose the same dozen points in front of one flat ellipsoid have a buried owner to first order. So
+  // the rate over both bodies varies less than that of each pose.
   constexpr std::size_t kPoints = 3000;
   std::size_t evaluated = 0;
   int buried_to_first_order = 0;
@@ -66,7 +66,7 @@ TEST_CASE(
       buried_to_first_order += bodice_test::check_posed_collider(collider, points);
       evaluated += kPoints;
     }
-    CHECK(buried > 100);  // else the poses would not test burial
+    CHECK(buried > 100);  // otherwise the poses would not test burial
   }
   CHECK(buried_to_first_order <= static_cast<int>(evaluated * 4 / 1000));
 }

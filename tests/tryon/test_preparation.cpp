@@ -57,7 +57,8 @@ bool traced(const std::vector<engine::TraceEvent>& events, std::string_view name
 
 }  // namespace
 
-TEST_CASE("a coarse proxy comes first, and all come in the same order to the bit on every executor") {
+TEST_CASE(
+    "proxies are published coarse to fine, in the same order and with the same bits on every executor") {
   const std::vector<std::uint64_t> expected = proxies_of({}, proxy::Tier::kTight);
   CHECK(expected.size() >= 2);
   for (const auto& [name, executor] : bodice_test::all_executors()) {
@@ -100,12 +101,13 @@ TEST_CASE("each solid part replaces the coarse one as soon as it is ready") {
       CHECK_FALSE(of_part(proxies[k], part).empty());  // no proxy lacks a part
       changes += of_part(proxies[k], part) != of_part(proxies[k - 1], part);
     }
-    CHECK(changes >= 1);  // from coarse to fine, and once more where the whole body's interior needs it
+    // From coarse to solid, and once more where the interior of the whole body needs more coverage.
+    CHECK(changes >= 1);
     CHECK(changes <= 2);
   }
 }
 
-TEST_CASE("a preparation prepares one body after the other") {
+TEST_CASE("one preparation handles one body after the other") {
   auto preparation = tryon::Preparation::make(options_for(proxy::Tier::kPaper), {});
   REQUIRE(preparation.ok());
   std::vector<double> statures;
@@ -115,14 +117,14 @@ TEST_CASE("a preparation prepares one body after the other") {
   }
   CHECK(statures[1] - statures[0] == doctest::Approx(0.2).epsilon(0.1));
   CHECK_FALSE(preparation->run({}, tryon::BodyFile{"nowhere.obj"}).ok());
-  CHECK(preparation->fit() == nullptr);  // nothing of the earlier body
+  CHECK(preparation->fit() == nullptr);  // no result of the earlier body is left
   const std::string dot = preparation->dump_dot();
   for (const char* edge : {"\"body\" -> \"anatomy\"", "\"body\" -> \"distance field\"",
                            "\"region\" -> \"proxy\"", "\"coarse proxy\" -> \"solid parts\""})
     CHECK_MESSAGE(dot.find(edge) != std::string::npos, edge);
 }
 
-TEST_CASE("parts that no garment reaches are not computed, as the trace shows") {
+TEST_CASE("parts that no garment reaches are not computed, by the trace") {
   const tryon::SegmentedSkin& skin = builtin_skin(3000);
   auto trace_of = [&](std::vector<geometry::TriMesh> garments, std::uint32_t& parts) {
     engine::Trace trace;
@@ -154,7 +156,7 @@ TEST_CASE("parts that no garment reaches are not computed, as the trace shows") 
   CHECK(run.error().message.find("within reach") != std::string::npos);
 }
 
-TEST_CASE("canceled at any moment, a preparation ends with whole proxies and can run again") {
+TEST_CASE("a preparation that is canceled at any moment leaves complete proxies, and can run again") {
   const auto executor = bodice_test::make_threads(2);
   std::vector<std::uint64_t> known = proxies_of({}, proxy::Tier::kTight);
   std::ranges::sort(known);

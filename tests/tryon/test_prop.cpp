@@ -77,7 +77,7 @@ tryon::WornGarment sheet_over(const Vec3& point, double width_m, int cells) {
 
 }  // namespace
 
-TEST_CASE("cloth falls onto a prop beside the body, and through where it would be without it") {
+TEST_CASE("cloth lands on a prop beside the body, and falls through that space without the prop") {
   for (const proxy::Tier tier : {proxy::Tier::kSolid, proxy::Tier::kRelief}) {
     CAPTURE(std::string(proxy::name(tier)));
     const engine::Context context;
@@ -127,7 +127,7 @@ TEST_CASE("a garment that begins inside a prop is refused with the depth") {
   CHECK(refused.error().message.find("20 mm") != std::string::npos);
 }
 
-TEST_CASE("a prop changes nothing of the body's own fit or of cloth that is far from it") {
+TEST_CASE("a prop changes neither the body's own fit nor cloth that is far from the prop") {
   const engine::Context context;
   const tryon::PreparedBody& body = builtin_body(kVertices, proxy::Tier::kSolid);
   const std::uint64_t hash = body.fit.proxy.hash();
@@ -145,7 +145,7 @@ TEST_CASE("a prop changes nothing of the body's own fit or of cloth that is far 
   CHECK(apart < 1e-4);
 }
 
-TEST_CASE("a prop stays where it is while the joints of the body move") {
+TEST_CASE("a prop stands still while the joints of the body move") {
   const engine::Context context;
   const auto& [body, chair, all] = beside_chair();
   CHECK(all.binding()->joint_names.back() == proxy::kStillJoint);
@@ -170,7 +170,7 @@ TEST_CASE("a prop stays where it is while the joints of the body move") {
   }
 }
 
-TEST_CASE("beside a prop a body takes its base poses, and the prop keeps its tables") {
+TEST_CASE("with a prop, the body uses its base poses, and the prop keeps its tables") {
   const engine::Context context;
   const auto& [body, chair, all] = beside_chair();
   std::vector<engine::Warning> warnings;

@@ -1,6 +1,5 @@
-// What a garment cannot reach is left out, and the distances where it can are as before: to the bit where
-// parts are fitted one by one or only left out, and as accurate against the true skin where neighbors are
-// fitted together.
+// Parts that a garment cannot reach are left out, and distances where it can are as before. They have the
+// same bits where parts are fitted one by one, and the same accuracy where neighbors are fitted together.
 
 #include <doctest/doctest.h>
 
@@ -99,7 +98,7 @@ bool is_far_from_skirts(body::Part part) {
 
 }  // namespace
 
-TEST_CASE("every part with a point of its skin within the margin is reached, however large its triangles") {
+TEST_CASE("every part with a point of skin within the margin is reached, however large its triangles are") {
   const geometry::TriMesh& skin = dressed().skin.input.skin;
   const Vec3 above(0.0, 1e-3, 0.0);
   const auto points = geometry::sample_surface(skin, 2000, 3);
@@ -128,7 +127,7 @@ TEST_CASE("paper and solid distances have the same bits in the region as in the 
   }
 }
 
-TEST_CASE("tight and relief are as near to the skin in the region as in the whole body") {
+TEST_CASE("within the region, tiers tight and relief are as accurate as in a fit of the whole body") {
   for (const proxy::Tier tier : {proxy::Tier::kTight, proxy::Tier::kRelief}) {
     CAPTURE(proxy::name(tier));
     const proxy::BodyProxy whole = fit(tier, fitting::kAllParts), region = fit(tier, reached());
@@ -142,7 +141,7 @@ TEST_CASE("tight and relief are as near to the skin in the region as in the whol
   }
 }
 
-TEST_CASE("leaving out what is beyond reach changes no distance within it, in any tier") {
+TEST_CASE("a cropped proxy has unchanged distances within reach, in every tier") {
   for (const proxy::Tier tier :
        {proxy::Tier::kPaper, proxy::Tier::kSolid, proxy::Tier::kTight, proxy::Tier::kRelief}) {
     CAPTURE(proxy::name(tier));

@@ -1,5 +1,5 @@
-// A body in another shape of the same vertices: is its proxy as good as one that is fitted to it from
-// scratch?
+// The proxy of a body in another shape of the same vertices is compared with one that is fitted to that
+// shape.
 
 #include <doctest/doctest.h>
 
@@ -37,7 +37,8 @@ double mean_error_m(const tryon::SegmentedSkin& skin, const proxy::BodyProxy& pr
 }  // namespace
 
 TEST_CASE(
-    "a slider of girth leaves the error within 1.2 of fits from scratch, and far below the carried proxy's") {
+    "after a slider of girth, the error is at most 1.2 times that of a new fit, and far below the old "
+    "proxy's") {
   auto skin = tryon::segment_builtin({}, {}, {});
   REQUIRE(skin);
   const fitting::FitOptions options{.measure_accuracy = false};
@@ -54,7 +55,7 @@ TEST_CASE(
     CAPTURE(error_m);
     CAPTURE(scratch_m);
     CHECK(error_m <= 1.2 * scratch_m);
-    // The old proxy judged by the new skin: what no refit would leave.
+    // The old proxy is measured against the new skin: the error without a refit.
     CHECK(error_m < 0.5 * mean_error_m(*shape->skin, fitted->fit.proxy));
   }
 }

@@ -11,8 +11,8 @@ namespace {
 constexpr std::size_t kPerineum = static_cast<std::size_t>(body::LandmarkId::kPerineum);
 constexpr std::size_t kFingertipL = static_cast<std::size_t>(body::LandmarkId::kFingertipL);
 
-/// A sheet as the skin, of which nothing is made up, with the perineum in the middle and the others at a
-/// border.
+/// A sheet as the skin, with the perineum in its middle and the other landmarks at a border. At first no
+/// vertex is made up.
 struct Closed {
   io::ImportedMesh mesh;
   anatomy::Anatomy anatomy;
@@ -28,7 +28,7 @@ struct Closed {
     anatomy.landmarks[kPerineum].position.setZero();
   }
 
-  /// Makes up the skin on one side of a line, which is this share of what lies around the perineum.
+  /// Marks the skin beyond x = from_m as made up; the perineum is at x = 0.
   void make_up(double from_m) {
     for (std::size_t v = 0; v < mesh.made_up.size(); ++v)
       mesh.made_up[v] = mesh.skin.positions[v].x() > from_m;
@@ -44,7 +44,7 @@ struct Closed {
 
 }  // namespace
 
-TEST_CASE("a landmark is in doubt where much of the skin around it is made up, sooner the less sure it is") {
+TEST_CASE("a landmark gets a warning where much of its skin is made up; one of low confidence needs less") {
   Closed closed;
   CHECK(closed.codes().empty());
   closed.make_up(0.001);  // nearly a half of the disk of 60 mm around the perineum
@@ -58,7 +58,7 @@ TEST_CASE("a landmark is in doubt where much of the skin around it is made up, s
   CHECK(closed.codes() == "landmarks-made-up ");
 }
 
-TEST_CASE("a landmark of which all is made up, or of a body with landmarks in doubt, may be wrong") {
+TEST_CASE("the warning is more than a note if most skin is made up, or if other landmarks are in doubt") {
   Closed closed;
   closed.make_up(-0.03);  // three quarters of the disk
   REQUIRE(closed.codes() == "landmarks-made-up ");
@@ -69,7 +69,7 @@ TEST_CASE("a landmark of which all is made up, or of a body with landmarks in do
   CHECK_FALSE(closed.warnings[0].note);
 }
 
-TEST_CASE("a hand that is shorter than the other one is in doubt where the skin was closed") {
+TEST_CASE("a hand that is shorter than the other one gives a warning where holes were closed") {
   Closed closed;
   closed.anatomy.landmarks[kFingertipL].position.x() += 0.05;
   CHECK(closed.codes().empty());
@@ -86,7 +86,7 @@ TEST_CASE("a hand that is shorter than the other one is in doubt where the skin 
   CHECK(closed.codes().empty());
 }
 
-TEST_CASE("armpits and a crotch that are unlike known ones are in doubt together, in a scan alone") {
+TEST_CASE("armpits and crotch that together look unusual give a warning, in scans only") {
   Closed scan;
   scan.mesh.made_up.clear();
   for (const body::LandmarkId id : {body::LandmarkId::kArmpitL, body::LandmarkId::kArmpitR})

@@ -1,5 +1,5 @@
-// Bodies prepared behind the frames take effect at boundaries, the newest one counts, and a run can be
-// repeated.
+// Bodies that are prepared behind the frames take effect at frame boundaries. The newest one is used, and a
+// run can be repeated.
 
 #include <doctest/doctest.h>
 
@@ -29,7 +29,7 @@ std::uint64_t run_deterministic(engine::Executor& executor) {
 
 }  // namespace
 
-TEST_CASE("garments wait for their body, then fall on it") {
+TEST_CASE("garments keep their positions until there is a body, then fall on it") {
   const auto executor = bodice_test::make_threads(2);
   const engine::Context context{.executor = executor.get()};
   tryon::Session session(context, {.fit = {.tier = proxy::Tier::kSolid}});
@@ -49,7 +49,7 @@ TEST_CASE("garments wait for their body, then fall on it") {
   CHECK(at[0].y() > 1.2);  // head or shoulders hold it up
 }
 
-TEST_CASE("a newer body replaces one that is still prepared") {
+TEST_CASE("a newer body replaces one that is still being prepared") {
   const auto executor = bodice_test::make_threads(2);
   const engine::Context context{.executor = executor.get()};
   tryon::Session session(context, {.fit = {.tier = proxy::Tier::kSolid}});
@@ -65,7 +65,7 @@ TEST_CASE("a newer body replaces one that is still prepared") {
   if (!superseded) CHECK(superseded.error().code == engine::ErrorCode::kCanceled);
 }
 
-TEST_CASE("of two bodies that wait for a frame the newer is shown, and the older one's ticket is canceled") {
+TEST_CASE("if two bodies wait for a frame, the newer one is used and the ticket of the other is canceled") {
   tryon::Session session({}, {.fit = {.tier = proxy::Tier::kSolid}});
   const engine::Ticket older = session.submit(synth::BodyOptions{.stature_m = 1.5, .mass_kg = 50});
   const engine::Ticket newer = session.submit(synth::BodyOptions{.stature_m = 1.9, .mass_kg = 80});
@@ -77,7 +77,7 @@ TEST_CASE("of two bodies that wait for a frame the newer is shown, and the older
   CHECK(superseded.error().code == engine::ErrorCode::kCanceled);
 }
 
-TEST_CASE("a body that cannot be read is an error of its ticket, and the frames go on") {
+TEST_CASE("a body that cannot be read gives its ticket an error, and frames continue") {
   const engine::Context context;
   tryon::Session session(context, {});
   const engine::Ticket ticket = session.submit(tryon::BodyFile{"nowhere.obj"});

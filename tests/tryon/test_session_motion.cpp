@@ -1,4 +1,4 @@
-// In a session a body plays a clip: paused, moved in time, carried over to the next body, and reshaped.
+// A body of a session plays a clip: with pauses, seeks, a next body, and new shapes.
 
 #include <doctest/doctest.h>
 
@@ -72,7 +72,7 @@ std::uint64_t hash_of_squats(engine::Executor& executor) {
 
 }  // namespace
 
-TEST_CASE("a body comes to its clip by a ramp, plays it, waits while paused, and loops") {
+TEST_CASE("a body reaches its clip by a ramp, plays it, stands while paused, and loops") {
   const auto walker = walking();
   tryon::Session& session = *walker;
   tryon::FrameOutcome outcome = session.frame(kFrame_s);
@@ -94,7 +94,7 @@ TEST_CASE("a body comes to its clip by a ramp, plays it, waits while paused, and
   CHECK(height_of_left_knee(session) == doctest::Approx(knee_m).epsilon(1e-6));
 }
 
-TEST_CASE("a loop that ends far from its start is led back without a jump") {
+TEST_CASE("a clip that ends far from its start loops without a jump") {
   const auto session = walking("sit");
   std::vector<Vec3> before(session->body()->skin->input.skin.positions.size()), now(before.size());
   for (int frame = 0; frame < 10; ++frame) session->frame(kFrame_s);  // the ramp from the bind pose
@@ -113,7 +113,7 @@ TEST_CASE("a loop that ends far from its start is led back without a jump") {
   CHECK(farthest_m < 0.06);
 }
 
-TEST_CASE("tables near the garments are those of the whole pose, tables out of their reach those at rest") {
+TEST_CASE("tables near the garments are posed, tables beyond their reach stay as at rest") {
   tryon::SessionOptions options = moving(proxy::Tier::kRelief);
   options.fit.max_ellipsoids = 60;
   options.refits = false;
@@ -177,7 +177,7 @@ TEST_CASE("seeking by a ramp reaches the same pose as seeking at once") {
   CHECK(height_of_left_knee(by_ramp) == doctest::Approx(height_of_left_knee(at_once)).epsilon(1e-6));
 }
 
-TEST_CASE("the next body goes on in the clip where the last one was") {
+TEST_CASE("the next body continues the clip at the time of the last body") {
   const auto walker = walking();
   tryon::Session& session = *walker;
   for (int frame = 0; frame < 40; ++frame) session.frame(kFrame_s);
@@ -190,8 +190,7 @@ TEST_CASE("the next body goes on in the clip where the last one was") {
   CHECK(outcome.ramp_left_s == 0.0);
 }
 
-TEST_CASE(
-    "another clip is reached from the pose in force, and one that is not there is an error of its ticket") {
+TEST_CASE("another clip is reached from the current pose, and an unknown one gives its ticket an error") {
   const auto walker = walking();
   tryon::Session& session = *walker;
   for (int frame = 0; frame < 20; ++frame) session.frame(kFrame_s);
@@ -211,7 +210,7 @@ TEST_CASE(
   CHECK(refused.error().code == engine::ErrorCode::kInvalidArgument);
 }
 
-TEST_CASE("garments hang on the body that moves") {
+TEST_CASE("held vertices move with the body") {
   const auto walker = walking();
   tryon::Session& session = *walker;
   REQUIRE(session.dress({sheet(10)}).ok());
@@ -256,7 +255,7 @@ TEST_CASE("a frame of a dressed body that walks allocates nothing once warm") {
   }
 }
 
-TEST_CASE("a shape takes effect behind the frames, on the skin's vertices, while the clip goes on") {
+TEST_CASE("a new shape takes effect on the skin while the clip plays on") {
   const auto walker = walking();
   tryon::Session& session = *walker;
   const tryon::SegmentedSkin& skin = *session.body()->skin;

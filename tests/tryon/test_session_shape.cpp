@@ -1,5 +1,5 @@
-// In a session a slider gives the body another shape, to which surface, skin and held vertices go over
-// without a jump.
+// A slider gives the body of a session another shape. Surface, skin and held vertices change to it without a
+// jump.
 
 #include <doctest/doctest.h>
 
@@ -73,7 +73,7 @@ double mean_m(const std::vector<double>& a, const std::vector<double>& b) {
   return sum / static_cast<double>(a.size());
 }
 
-/// Runs five of the frames, ten at least, in which a body goes over to another shape.
+/// Runs five frames of a change of shape, which takes at least ten.
 void check_that_frames_allocate_nothing(tryon::Session& session) {
   const std::size_t before = bodice_test::allocations();
   for (int frame = 0; frame < 5; ++frame) session.frame(kStep_s);
@@ -82,8 +82,7 @@ void check_that_frames_allocate_nothing(tryon::Session& session) {
 
 }  // namespace
 
-TEST_CASE(
-    "a body that stands goes over to another shape by 3 mm a frame at most, its surface by 2 on average") {
+TEST_CASE("a standing body changes its shape by at most 3 mm a frame, and its surface by 2 mm on average") {
   const auto session = begun(false);
   const std::vector<Vec3> points = session->body()->skin->input.skin.positions;
   const std::vector<Vec3> wanted = wider(*session->body()->skin);
@@ -107,15 +106,14 @@ TEST_CASE(
   CHECK(skin == wanted);
   CHECK(skin_step_m < 0.003);
   CHECK(surface_step_m < 0.002);
-  CHECK(mean_m(distance, distance_before) > 0.004);  // what it would jump by
+  CHECK(mean_m(distance, distance_before) > 0.004);  // the distance of a jump
   collision::Collider own(session->body()->proxy);
   own.cover({}, wanted);
   CHECK(mean_m(distance, distances(own, points)) < 1e-6);
 }
 
 TEST_CASE(
-    "a second shape is reached from where the surface is, not from the shape before, in frames that allocate "
-    "nothing") {
+    "a second shape starts from the present surface, not from the earlier shape, and allocates nothing") {
   const auto session = begun(false);
   const std::vector<Vec3> first = session->body()->skin->input.skin.positions;
   REQUIRE(session->reshape(wider(*session->body()->skin)).ok());
@@ -129,7 +127,7 @@ TEST_CASE(
   CHECK(skin_of(*session) == first);
 }
 
-TEST_CASE("a body that walks keeps its velocity when another shape comes into use, and its surface follows") {
+TEST_CASE("a walking body keeps its velocity while its shape changes, and its surface follows") {
   const auto session = begun(true);
   const std::vector<Vec3> wanted = wider(*session->body()->skin);
   REQUIRE(farthest_m(wanted, session->body()->skin->input.skin.positions) > 0.02);

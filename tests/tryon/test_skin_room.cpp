@@ -45,7 +45,7 @@ geometry::TriMesh strip(double x, double tilt) {
 
 }  // namespace
 
-TEST_CASE("skin_room: between two balls it is their gap, and as much a little deeper or off the middle") {
+TEST_CASE("skin room: between two balls it is their gap, also a little deeper or off the middle") {
   for (const double gap_mm : {2.0, 5.0, 9.0}) {
     CAPTURE(gap_mm);
     const geometry::TriMesh skin = two_balls(1e-3 * gap_mm);
@@ -55,7 +55,7 @@ TEST_CASE("skin_room: between two balls it is their gap, and as much a little de
   }
 }
 
-TEST_CASE("skin_room: a surface that nothing faces has all room, and skin that overlaps itself none") {
+TEST_CASE("skin room: without a facing surface it is the maximum, and where skin overlaps itself zero") {
   CHECK(room_m(two_balls(0.005), Vec3(-0.1025, 0.102, 0)) == kMost_m);
   CHECK(room_m(two_balls(0.1), Vec3::Zero()) == kMost_m);
   const geometry::TriMesh overlapping = two_balls(-0.01);
@@ -64,18 +64,18 @@ TEST_CASE("skin_room: a surface that nothing faces has all room, and skin that o
   CHECK(room_m(overlapping, Vec3(-0.1, 0.1, 0)) == kMost_m);
 }
 
-TEST_CASE("skin_room: walls at right angles do not face each other") {
+TEST_CASE("skin room: walls at right angles do not face each other") {
   const geometry::TriMesh skin = two_balls(-0.0586);  // their normals are at right angles where they meet
   CHECK(room_m(skin, Vec3(-0.004, 0.076, 0)) == kMost_m);
 }
 
-TEST_CASE("skin_room: the far side of a thin limb is no wall of a gap") {
+TEST_CASE("skin room: the far side of a thin limb is not a facing wall") {
   geometry::TriMesh limb = bodice_test::icosphere(1.0, 5);
   for (Vec3& p : limb.positions) p = Vec3(0.003 * p.x(), 0.1 * p.y(), 0.1 * p.z());
   CHECK(room_m(limb, Vec3(0.004, 0, 0)) == kMost_m);
 }
 
-TEST_CASE("skin_room: crossings are judged one by one, where their edges pass through") {
+TEST_CASE("skin room: each crossing is classified at the point where its edges pass through") {
   const geometry::TriMesh skin = two_balls(0.004);
   const geometry::MeshDistance distance({}, skin);
   geometry::TriMesh cloth = strip(0.0, 0.005);  // two pairs that cross: midway between the balls, and far off

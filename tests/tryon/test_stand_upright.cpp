@@ -1,4 +1,4 @@
-// The up axis of files that do not give it, of bodies that extents alone do not show to stand.
+// The up axis of files that do not state it, for bodies with extents that do not show it.
 #include <doctest/doctest.h>
 
 #include <bodice/io/obj.hpp>
@@ -21,7 +21,7 @@ std::filesystem::path write(const bodice_test::TempFolder& folder, synth::Pose p
 
 }  // namespace
 
-TEST_CASE("a body that sits or stretches its arms is upright, whatever the axis of its file") {
+TEST_CASE("a body that sits or stretches its arms is turned upright, whatever the axis of its file") {
   const bodice_test::TempFolder folder;
   for (const synth::Pose pose : {synth::Pose::kSit, synth::Pose::kT, synth::Pose::kA})
     for (const geometry::Axis up : {geometry::Axis::kX, geometry::Axis::kY, geometry::Axis::kZ}) {
@@ -39,7 +39,7 @@ TEST_CASE("a body that sits or stretches its arms is upright, whatever the axis 
     }
 }
 
-TEST_CASE("an axis that the caller gives is kept, whatever the trunk shows") {
+TEST_CASE("an axis that the caller gives is kept, whatever the trunk's direction is") {
   const bodice_test::TempFolder folder;
   const auto file = write(folder, synth::Pose::kSit, geometry::Axis::kZ);
   const auto skin = tryon::segment_file({}, file, {.import = {.up = geometry::Axis::kY}});

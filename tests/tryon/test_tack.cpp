@@ -73,7 +73,7 @@ TEST_CASE("tack: overlapping borders and small pieces are tacked, and reported b
     CHECK((mesh.positions[tack.a] - mesh.positions[tack.b]).norm() < 0.03);
 }
 
-TEST_CASE("tack: pieces farther apart than the distance are left alone, and a garment of one piece is") {
+TEST_CASE("tack: pieces farther apart than the distance, and a garment of one piece, get no tacks") {
   CHECK(tryon::find_tacks({}, bib_and_skirt(0.004), 0.002).tacks.empty());
   CHECK(tryon::find_tacks({}, bib_and_skirt(0.004), 0.0).tacks.empty());
   geometry::TriMesh one;
@@ -130,7 +130,7 @@ TEST_CASE("tack: without tacks a loose piece falls, with them it hangs where it 
   CHECK(lowest_after_fall(mesh, tacking.tacks, button, end) > 1.1 - 0.02);
 }
 
-TEST_CASE("tack: the same tacks for any number of workers, none that a solver cannot take") {
+TEST_CASE("tack: the tacks are the same for any number of workers, and valid for a solver") {
   const geometry::TriMesh mesh = bib_and_skirt(0.004);
   const auto executor = bodice_test::make_threads(3);
   const tryon::Tacking one = tryon::find_tacks({}, mesh, 0.006),

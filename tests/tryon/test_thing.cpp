@@ -1,4 +1,4 @@
-// Things that are no person, from a mesh to proxy, files and report, against distances in closed form.
+// Things from a mesh to proxy, files and report, compared with distances in closed form.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -61,7 +61,7 @@ double true_gap_m(const proxy::BodyProxy& proxy, const synth::Thing& thing) {
 
 }  // namespace
 
-TEST_CASE("things are fitted as closely as their formulas confirm, in every tier") {
+TEST_CASE("things are fitted in every tier with the reported accuracy, by their distances in closed form") {
   struct Row {
     ThingKind kind;
     proxy::Tier tier;
@@ -93,7 +93,7 @@ TEST_CASE("things are fitted as closely as their formulas confirm, in every tier
   }
 }
 
-TEST_CASE("a target error is met on a thing, and few ellipsoids are kept to") {
+TEST_CASE("the fit of a thing meets a target error, and a limit on its ellipsoids") {
   const synth::Thing dog = synth::make_thing({}, ThingKind::kDog, kEdge_m);
   const tryon::PreparedBody near = fitted({}, dog.mesh, {.target_error_m = 0.003});
   CHECK(near.fit.accuracy.gap_m.mean < 0.0036);

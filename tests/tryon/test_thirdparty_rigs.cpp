@@ -1,4 +1,4 @@
-// Rigs that other people made: proxies are bound to them and play, or the file is refused in one sentence.
+// Rigs of other programs: a proxy is bound to them and plays, or the file is refused with one sentence.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -46,7 +46,7 @@ void check_plays(const tryon::PreparedBody& body, const tryon::BodyMotion& motio
 
 }  // namespace
 
-TEST_CASE("third-party rigs are bound and play, or are refused in one sentence") {
+TEST_CASE("third-party rigs are bound and play, or are refused with one sentence") {
   for (const std::string name : {"CesiumMan.glb", "Female_Dress.fbx", "greenman.glb", "guy.iqm"}) {
     const auto file = bodice_test::data_file("rigs/thirdparty/" + name);
     if (!file) return;

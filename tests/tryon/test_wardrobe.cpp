@@ -1,4 +1,4 @@
-// Garments in memory may be invalid: a vertex number that they do not have is an error, and is never read.
+// Garments in memory may be invalid: a reference to a missing vertex is an error, and is never read.
 
 #include <doctest/doctest.h>
 
@@ -60,7 +60,7 @@ TEST_CASE("wardrobe: garments are joined in order, each with its own vertices") 
   CHECK(all->mesh.triangles[1] == geometry::Triangle{3, 4, 5});
 }
 
-TEST_CASE("wardrobe: a vertex that a garment does not have is named, wherever the garment goes") {
+TEST_CASE("wardrobe: a reference to a missing vertex is an error that names the vertex, in every function") {
   tryon::WornGarment held = patch("vest"), torn = patch("");
   held.held = {3};  // would be the first vertex of the scarf
   torn.mesh.triangles.push_back({0, 1, 77});
@@ -122,7 +122,7 @@ TEST_CASE("drape: a garment that is nowhere near the body, or in other units, gi
   CHECK(codes([](const Vec3& p) { return Vec3(100.0 * (p - Vec3(0.0, 1.2, 0.3))); }) == "garment-size ");
 }
 
-TEST_CASE("report: it holds what is needed to repeat the run, and the garments") {
+TEST_CASE("report: it has the garments, and all that is needed to repeat the run") {
   tryon::WornGarment vest = patch("vest.obj");
   vest.held = {1, 2};
   const auto draped = tryon::drape({}, wearer(), {vest}, {.frames = 2, .dt_s = 0.01});
@@ -151,7 +151,7 @@ TEST_CASE("report: it holds what is needed to repeat the run, and the garments")
   CHECK_FALSE(plain["accuracy"].contains("of"));
 }
 
-TEST_CASE("report: names that are not UTF-8 do not prevent it") {
+TEST_CASE("report: it is written although names are not UTF-8") {
   tryon::PreparedBody named = wearer();
   named.skin.input.file = "K\xF6rper.obj";
   named.skin.input.mesh = "K\xF6rper";
