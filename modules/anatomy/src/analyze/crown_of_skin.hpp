@@ -5,8 +5,8 @@
 
 namespace bodice::inline v0_1::anatomy {
 
-/// A thin copy has lost the ears, by which the length of a head is judged. Where the skin as it is has the
-/// same crown, and nothing against it, the doubts of the copy about it are dropped from `apart`.
+/// Removes the warnings about the crown from `apart`, the result on a thin copy, if the skin itself has the
+/// same crown without a warning. A thin copy has no ears, by which the length of a head is tested.
 void judge_crown(const Anatomy& as_is, Anatomy& apart);
 
 }  // namespace bodice::anatomy

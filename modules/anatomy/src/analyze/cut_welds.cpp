@@ -27,29 +27,31 @@ using geometry::MeshDistance;
 using geometry::TriMesh;
 using geometry::Vec3;
 
-/// Depths of thin copies, of the stature: 2, 9 and 14 mm. The first keeps the fingers, by which arms are
-/// measured, and serves where webs are all there is; what one does not part, the next may.
+/// The depths of thin copies, fractions of the stature: 2, 9 and 14 mm. The first keeps the fingers, by which
+/// arms are measured, and suffices where limbs are joined by webs alone. Where limbs are not apart at one
+/// depth, they may be at the next.
 constexpr std::array kDepths = {0.0012, 0.0053, 0.0082};
-/// Where no depth parts the limbs, walls through necks of these shares of the limbs' depths may.
+/// The shares of the limbs' depth that a neck between limbs may have, for walls where no depth parts the
+/// limbs.
 constexpr std::array kNecks = {0.92, 0.95, 0.88};
 /// Walls need no deep copy: so many of the depths are tried with them.
 constexpr std::size_t kWalledDepths = 2;
 /// Area to squared length of a body is below this: .55 to .85, of a heavy one .9.
 constexpr double kMostArea = 1.0;
 
-/// Looks at a copy, each with the webs cut that the one before showed.
+/// The most passes over one copy; each cuts the webs that the one before revealed.
 constexpr int kPasses = 3;
-/// How often folds are moved to where limbs and trunk let expect them, which themselves are found better
-/// then.
+/// How often folds are moved to the positions that limbs and trunk predict, which then are more accurate
+/// themselves.
 constexpr int kSettling = 2;
 /// How far a landmark may lie below the fold up to which limbs were parted; of the stature.
 constexpr double kBelowFold = 0.025;
 
-/// Folds of a copy so many times as deep as the first lie too high, so that less is doubtful.
+/// The folds of a copy kMuchDeeper times as deep as the first lie too high: less than usual is doubtful.
 constexpr double kMuchDeeper = 2.0, kDeepMisfit = 0.6;
 
-/// The least product of the confidences of armpits and crotch that speaks for them. Scans that were read
-/// right have .64 or more, and those in which one of the folds was wrong .33 or less.
+/// The least product of the confidences of armpits and crotch that counts as evidence for them. Scans with
+/// correct folds have 0.64 or more, and those with a wrong one 0.33 or less.
 constexpr double kFoldsFit = 0.6;
 /// A stature that changes by less than this share is the same one.
 constexpr double kSameStature = 0.015;
@@ -64,8 +66,8 @@ struct WeldedBody {
   Analyze analyze;
 };
 
-/// `sure`: the cut is reported, and there is nothing to check. Handles that are left, of walls with gaps,
-/// are then none of the body's paths.
+/// Adds the warning "limbs-cut". If `sure`, it is a note without a remedy, and so are warnings of handles,
+/// which then come from walls with gaps.
 void warn(const std::string& where, const ThinCopy& thin, bool sure, Anatomy& apart) {
   std::erase_if(apart.warnings, [](const engine::Warning& w) { return w.code == "holes"; });
   for (engine::Warning& w : apart.warnings) w.note = w.note || (sure && w.code == "limbs-fused");
@@ -85,15 +87,15 @@ bool folds_fit(const Anatomy& apart) {
   return fit >= kFoldsFit;
 }
 
-/// Whether a body that stands looks right where there is nothing that lets expect its folds: these look as on
-/// known bodies, and it is as tall as on the skin that is not cut.
+/// Whether the result for a standing body is plausible although its folds cannot be predicted: they look as
+/// on known bodies, and the stature is that of the skin without cuts.
 bool looks_right(const engine::Result<Anatomy>& as_is, const Anatomy& apart) {
   return as_is && folds_fit(apart) && std::ranges::min(thigh_cosines(apart)) >= kUpright &&
          std::abs(apart.stature_m / as_is->stature_m - 1.0) < kSameStature;
 }
 
-/// Whether nothing but a handle is in doubt, and armpits and crotch lie where the limbs let expect them, or
-/// look right. `webs_only`: their folds were found by the room inside the body, which is evidence as well.
+/// Whether nothing but a handle is in doubt, and armpits and crotch are where the limbs predict them, or are
+/// plausible. With `webs_only` the room inside the body gave the folds, which is evidence as well.
 bool is_sure(const engine::Result<Anatomy>& as_is, const Anatomy& apart, const ThinCopy& thin,
              bool webs_only) {
   const bool deep = thin.depth > kDepths[0] * kMuchDeeper * apart.stature_m;
@@ -103,11 +105,11 @@ bool is_sure(const engine::Result<Anatomy>& as_is, const Anatomy& apart, const T
   return !deep && looks_right(as_is, apart);
 }
 
-/// A thin copy that has come apart, and what was found on it.
+/// A thin copy on which limbs are apart, and the result on it.
 struct Parted {
   ThinCopy thin;
   Anatomy found;
-  std::vector<Web> left;  ///< webs that no cut undid
+  std::vector<Web> left;  ///< webs that are left after the cuts
 };
 
 /// What a copy of the body, walled as it is now, shows when its limbs have come apart.

@@ -8,9 +8,9 @@ namespace bodice::inline v0_1::anatomy {
 using Analyze = engine::Result<Anatomy> (*)(const engine::Context& context, const geometry::TriMesh& mesh,
                                             const Options& options);
 
-/// What `analyze` found on a skin; where limbs are welded to the trunk or to each other, what it finds on a
-/// thin copy that comes apart there, with the warning "limbs-cut". Skins that show no sign of a weld are left
-/// alone: they cost nothing more.
+/// The result of `analyze` on a skin. Where limbs are welded to the trunk or to each other, it is the result
+/// on a thin copy on which they are apart, with the warning "limbs-cut". Fails as `analyze` does. Cost: that
+/// of `analyze`; with signs of a weld, several times as much.
 engine::Result<Anatomy> cut_welds(const engine::Context& context, const geometry::TriMesh& mesh,
                                   const Options& options, Analyze analyze);
 

@@ -1,4 +1,4 @@
-// Folds that lie where limbs and trunk contradict them.
+// Corrections of folds with positions that do not fit the limbs and the trunk.
 #pragma once
 
 #include <vector>
@@ -7,18 +7,18 @@
 
 namespace bodice::inline v0_1::anatomy {
 
-/// The folds of a body with limbs that were parted. Those that are far from where limbs and trunk let expect
-/// them lie there instead; armpits that the room inside the body has too low as well lie between both. Empty
-/// if none is. Cost: as find_folds.
+/// The folds of a body with limbs that were cut apart, with corrections. A fold far from the position that
+/// limbs and trunk predict moves there. An armpit that is too low by the room inside the body as well moves
+/// between both. Empty if no fold moves. Cost: that of find_folds().
 std::vector<Fold> expected_folds(const engine::Context& context, const geometry::TriMesh& skin,
                                  const Anatomy& found);
 
-/// Warns of folds that lie where they are expected `after` limbs were parted anew, and were far off `before`:
-/// what misled the first look may mislead the second.
+/// Warns of folds that were far from their predicted positions `before` limbs were cut again, and are near
+/// them `after` that. The cause of the first error may affect the second result as well.
 void doubt_moved_folds(const Anatomy& before, Anatomy& after);
 
-/// The webs that show by the levels of folds: alone, on a skin that was closed or hides both armpits; at
-/// armpits of any skin together with the room inside the body.
+/// The webs that the levels of folds reveal. On a skin with closed holes, or where both armpits are hidden,
+/// levels alone are evidence. At armpits of any other skin, the room inside the body must agree.
 std::vector<Web> webs_by_level(const engine::Context& context, const geometry::TriMesh& skin,
                                const Options& options, const Anatomy& found);
 

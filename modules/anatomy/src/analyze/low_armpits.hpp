@@ -1,4 +1,4 @@
-// Armpits that the room inside the body and the limbs have too low, neither enough by itself.
+// Armpits that are too low by two kinds of weak evidence together: the limbs, and the room inside the body.
 #pragma once
 
 #include <array>
@@ -7,13 +7,13 @@
 
 namespace bodice::inline v0_1::anatomy {
 
-/// How far the left and the right armpit are to be moved up, as a fraction of the stature: to the middle
-/// between where limbs and trunk let expect it and where the room inside the body shows its fold. 0 where
-/// both together are no evidence.
+/// How far the left and the right armpit must be moved up, as fractions of the stature; 0 without sufficient
+/// evidence. The target is the middle between two predictions: by limbs and trunk, and by the room inside the
+/// body.
 std::array<double, 2> armpits_too_low(const engine::Context& context, const geometry::TriMesh& skin,
                                       const Anatomy& found);
 
-/// Doubts armpits that are still too low. `skin` is not cut.
+/// Warns of armpits that are still too low, on a skin that is not cut.
 void doubt_low_armpits(const engine::Context& context, const geometry::TriMesh& skin, Anatomy& anatomy);
 
 }  // namespace bodice::anatomy

@@ -1,5 +1,5 @@
-// Limbs that a scan has welded come apart inside: a thinner copy of the body is analyzed in place of the
-// skin.
+// Thin copies of a skin. Limbs that a scan has welded are apart some millimeters below the skin, so that a
+// thinner copy of the body is analyzed instead.
 #pragma once
 
 #include <optional>
@@ -25,18 +25,19 @@ struct ThinCopy {
 /// A skin on a grid, of which thin copies are made.
 class SampledSkin {
  public:
-  /// Nothing where the body would need too large a grid. `distance` is that of the skin, and outlives this.
+  /// Samples a skin. Empty where the body would need too large a grid. `distance` is that of the skin, and
+  /// must outlive the result.
   static std::optional<SampledSkin> make(const geometry::TriMesh& skin,
                                          const geometry::MeshDistance& distance);
 
   /// Returns the surface at a depth below the skin, which is `depth_share` of the body's height. Returns
   /// nothing if no point lies so deep. Cost: half a second, half of it for another copy of the same skin.
   std::optional<ThinCopy> thin_copy(const engine::Context& context, double depth_share);
-  /// Parts limbs in all copies that follow where limb_walls does. Cost: half a second, less when called
-  /// again.
+  /// Cuts limbs apart, by the walls of limb_walls(), in all copies that are made later. Cost: half a second,
+  /// less when called again.
   void wall_limbs(const engine::Context& context, const geometry::MeshDistance& distance, double neck);
   void remove_walls() { wall_.clear(); }
-  /// Parts limbs likewise where known_walls does.
+  /// Does the same by the walls of known_walls().
   void wall_known_limbs(const engine::Context& context, const geometry::MeshDistance& distance,
                         const Anatomy& found, const std::vector<Fold>& folds);
 
@@ -52,9 +53,8 @@ class SampledSkin {
   std::vector<char> wall_;     ///< #nodes, or empty
 };
 
-/// Carries what was found on a thin copy over to its skin. Parts spread along the skin from where it lies
-/// right above the copy, tips move to the ends of their limbs, and landmarks of the surface move out to the
-/// skin.
+/// Transfers the result on a thin copy to its skin. Parts spread along the skin from vertices right above the
+/// copy. Tips move to the ends of their limbs, and landmarks on the surface move out to the skin.
 Anatomy carry_out(const engine::Context& context, const ThinCopy& thin, const Anatomy& found,
                   const geometry::TriMesh& skin);
 

@@ -1,17 +1,21 @@
-// What warnings show of welded limbs, and how much they leave in doubt.
+// The signs of welded limbs among warnings, and the number of doubts.
 #pragma once
 
 #include <bodice/anatomy/anatomy.hpp>
 
 namespace bodice::inline v0_1::anatomy {
 
+/// Whether the warnings show signs of welded limbs.
 bool shows_welds(const Anatomy& found);
+/// The same for a result; an analysis that failed may have failed because of welds.
 bool is_welded(const engine::Result<Anatomy>& found);
-/// Whether paths along the skin are cut short. A handle alone, of a wall with a gap, may not do that.
+/// Whether limbs touch, so that paths along the skin are too short. A handle alone is no proof, because a
+/// wall with a gap gives one as well.
 bool limbs_meet(const Anatomy& found);
 /// The number of doubts: about landmarks, limbs that differ, an unusual body, and handles.
 int doubts(const Anatomy& anatomy);
-/// Those that are not about handles: fingers that touch at their tips have one, and no path is wrong for it.
+/// The number of doubts that are not about handles. Fingers that touch at their tips give a handle, but no
+/// wrong path.
 int doubts_but_handles(const Anatomy& anatomy);
 
 }  // namespace bodice::anatomy

@@ -10,9 +10,9 @@
 
 namespace bodice::inline v0_1::anatomy {
 
-/// The fold of a heavy seat looks like a perineum, too. Where it fits best, a vertex in front of it fits by
-/// less than this many deviations worse, and is taken; among 2,100 rig-skinned and made bodies the five that
-/// the fold misled had margins of 2.7 or less, and all others but one of 3.2 or more.
+/// The margin below which the best vertex is rejected for a vertex in front of it, in deviations. The fold of
+/// a heavy seat resembles a perineum, and may fit best. Among 2,100 rig-skinned and made bodies, the five
+/// with this error had margins of 2.7 or less, and all others but one 3.2 or more.
 inline constexpr float kFoldMargin = 2.9F;
 
 /// A vertex that is nearer to the breastbone along the skin by this fraction of the body size is another
@@ -35,7 +35,7 @@ class BodyCoordinates {
   geometry::Index perineum() const { return perineum_; }
   const geometry::Vec3& perineum_position() const { return perineum_position_; }
   float perineum_mahalanobis() const { return perineum_mahalanobis_; }
-  /// By how many deviations the best vertex in front of the one that fits best fits worse than that one.
+  /// The Mahalanobis distance of the best vertex in front of the best one, less that of the best one.
   float perineum_margin() const { return perineum_margin_; }
   /// Whether a vertex lies where the perineum is searched for.
   bool may_be_perineum(std::size_t vertex) const;

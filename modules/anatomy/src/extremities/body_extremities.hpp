@@ -14,7 +14,8 @@ struct BodyExtremities {
   float hands_apart = 0.0F, feet_apart = 0.0F, head_to_feet = 0.0F;  ///< meters along the skin
 };
 
-/// The result refers to the fields of `tips`.
+/// The extremities by side; `sides` states which of A and B is left. The result refers to the fields of
+/// `tips`.
 BodyExtremities in_body_order(const Extremities& tips, const Sides& sides);
 
 }  // namespace bodice::anatomy

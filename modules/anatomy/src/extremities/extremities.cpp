@@ -17,19 +17,21 @@ using geodesic::Field;
 using geometry::Index;
 
 constexpr std::size_t kCandidates = 8;
-/// A candidate may be a heel or a thumb; the true extremity is within a foot's length of it.
+/// A candidate may be a heel or a thumb. The true extremity is within this distance of it, about a foot's
+/// length.
 constexpr float kRefineRadius = 0.2F;  // a fraction of the body size
 
-/// The distance from its candidate beyond which no skin is of the head; a fraction of the body size.
+/// Skin farther than this from the head's candidate does not belong to the head; a fraction of the body size.
 constexpr float kHeadBall = 0.30F;
-/// What is nearer to a hand than this share of the distance of the head's candidate is an arm: the elbow of
-/// an arm that is raised beside a heavy neck lies within the head's reach, and farther from the feet.
+/// A vertex nearer to a hand than this share of the head candidate's distance belongs to an arm. It is needed
+/// for an arm that is raised beside a heavy neck: the elbow lies within kHeadBall of the candidate, and
+/// farther from the feet.
 constexpr float kOffArms = 0.7F;
-/// The height of the head, from the crown down, that counts for its ball; a fraction of the body size.
+/// The height of the head below its highest vertex that the ball is fitted to; a fraction of the body size.
 constexpr float kHeadHeight = 0.15F;
 
-/// The vertex within `radius` of `end` that is farthest from the ends in `from`, among those that `may` be
-/// it.
+/// The vertex within `radius` of the extremity `end` with the largest distance from the extremities in
+/// `from`, among vertices with may(v).
 template <class May>
 Index refine(const Extremities& tips, Extremity end, float radius, std::span<const Extremity> from, May may) {
   Index best = tips.vertex[end];
@@ -46,7 +48,8 @@ Index refine(const Extremities& tips, Extremity end, float radius, std::span<con
   return best;
 }
 
-/// What may be of the head, by its distance from the candidate and from the hands.
+/// A predicate: whether a vertex may belong to the head, by its distances from the candidate and from the
+/// hands.
 auto near_head(const Extremities& tips, float size) {
   const auto to_hand = [&tips](std::size_t v) {
     return std::min(tips.field[kHandA][v], tips.field[kHandB][v]);
@@ -57,7 +60,8 @@ auto near_head(const Extremities& tips, float size) {
   };
 }
 
-/// The head as a ball: what lies no nearer to the feet than a head's height below its far end.
+/// The ball of the head: it is fitted to the vertices of the head that are at most kHeadHeight nearer to the
+/// feet than its far end.
 Ball head_ball(const Skin& skin, const Extremities& tips, float size) {
   const auto reach = [&](std::size_t v) { return 0.5F * (tips.field[kFootA][v] + tips.field[kFootB][v]); };
   const auto near = near_head(tips, size);
@@ -95,7 +99,7 @@ void refine_all(const engine::Context& context, const Skin& skin, float size, Ex
   }
 }
 
-/// n x n, row-major, meters.
+/// The distances along the skin between all points: n x n, row-major, meters.
 std::vector<float> distances_between(const FarthestPoints& points) {
   const std::size_t n = points.vertex.size();
   std::vector<float> apart(n * n, 0.0F);
@@ -105,8 +109,8 @@ std::vector<float> distances_between(const FarthestPoints& points) {
   return apart;
 }
 
-/// An arm's path to the leg of its own side is shorter. Sums over both sides cancel what a pose does to one
-/// limb.
+/// Exchanges the hands if they are on the wrong sides. The path from an arm to the leg of its own side is the
+/// shorter one; sums over both sides cancel the effect of a pose on one limb.
 void pair_sides(Extremities& tips, float size) {
   const float same = tips.between(kHandA, kFootA) + tips.between(kHandB, kFootB);
   const float cross = tips.between(kHandA, kFootB) + tips.between(kHandB, kFootA);

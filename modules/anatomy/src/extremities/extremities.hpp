@@ -16,9 +16,11 @@ inline constexpr int kExtremityCount = 5;
 /// decided elsewhere.
 struct Extremities {
   std::array<geometry::Index, kExtremityCount> vertex{};
-  std::array<geodesic::Field, kExtremityCount> field;  ///< distance of every vertex from each end, meters
-  double mahalanobis = 0.0;  ///< of their distances to those of a body; below 1 is good
-  double side_margin = 0.0;  ///< how clearly hands and feet pair, relative to the body's size
+  /// Distance of every vertex from each extremity, meters.
+  std::array<geodesic::Field, kExtremityCount> field;
+  double mahalanobis = 0.0;  ///< of their mutual distances from those of known bodies; below 1 is good
+  /// Difference of the two pairings of hands and feet, as a share of the body size.
+  double side_margin = 0.0;
 
   float between(Extremity a, Extremity b) const { return field[a][vertex[b]]; }
   float hands_apart() const { return between(kHandA, kHandB); }
@@ -26,7 +28,8 @@ struct Extremities {
   float head_to_feet() const { return 0.5F * (between(kHead, kFootA) + between(kHead, kFootB)); }
 };
 
-/// Empty when the skin has no five extremities at the distances that a body's have.
+/// Finds the extremities. Empty if the skin has no five vertices with mutual distances like those of a body.
+/// Cost: about eight distance fields.
 std::optional<Extremities> find_extremities(const engine::Context& context, const Skin& skin);
 
 }  // namespace bodice::anatomy

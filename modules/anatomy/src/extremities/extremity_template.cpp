@@ -15,7 +15,8 @@ constexpr int kPairs = kTemplatePairs;
 constexpr std::array<std::array<int, 2>, kPairs> kPairOf{
     {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 2}, {1, 3}, {1, 4}, {2, 3}, {2, 4}, {3, 4}}};
 
-/// One independent mode in which bodies and poses differ: what it adds to each distance, at one deviation.
+/// One independent mode in which bodies and poses differ: the change of each distance at one standard
+/// deviation.
 Pairs mode(double deviation, const std::array<double, kExtremityCount>& of_end, double trunk = 0.0) {
   Pairs m;
   for (int p = 0; p < kPairs; ++p) {
@@ -26,8 +27,8 @@ Pairs mode(double deviation, const std::array<double, kExtremityCount>& of_end, 
   return m;
 }
 
-/// Extremities lie farther out than their neighbors (toe and heel, fingertip and thumb), so that the fit with
-/// the greater distances is the right one of two equal fits.
+/// The reward for larger distances. Of two equal fits the one with larger distances is right, because
+/// extremities lie farther out than their neighbors (toe and heel, fingertip and thumb).
 constexpr double kFartherIsBetter = 4.0;
 
 }  // namespace
@@ -57,7 +58,7 @@ Eigen::Matrix<double, kPairs, kPairs> template_spread(std::span<const double, kT
 }
 
 std::optional<TemplateMatch> match_template(std::span<const float> apart, std::size_t n) {
-  // Distances and deviations are fractions of the stature, over people of many builds, ages and poses.
+  // Distances and deviations are fractions of the stature, from bodies of many builds, ages and poses.
   const Pairs expected = template_pairs(coefficients::extremities::kDistances);
   const Eigen::Matrix<double, kPairs, kPairs> weight =
       template_spread(coefficients::extremities::kSpread).inverse();

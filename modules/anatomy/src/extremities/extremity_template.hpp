@@ -25,14 +25,14 @@ Eigen::Matrix<double, kTemplatePairs, kTemplatePairs> template_spread(
 
 /// The five candidates that fit the template best.
 struct TemplateMatch {
-  std::array<std::size_t, kExtremityCount>
-      candidate{};  ///< position in the list of candidates, in the order of Extremity
+  /// Position in the list of candidates, in the order of Extremity.
+  std::array<std::size_t, kExtremityCount> candidate{};
   double mahalanobis = 0.0;
   double size_m = 0.0;  ///< the template's unit: about the stature
 };
 
-/// The choice and order of the five candidates that have mutual distances most like those of a body.
-/// `apart`: n x n, row-major, meters.
+/// The choice and order of the five candidates with mutual distances that fit the template best; empty if no
+/// distance is finite. `apart`: distances of n candidates, n x n, row-major, meters. Cost: O(n^5).
 std::optional<TemplateMatch> match_template(std::span<const float> apart, std::size_t n);
 
 }  // namespace bodice::anatomy

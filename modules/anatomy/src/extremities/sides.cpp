@@ -21,12 +21,12 @@ using geometry::Vec3;
 constexpr std::array<float, 7> kReadAt{0.36F, 0.42F, 0.48F, 0.54F, 0.60F, 0.66F, 0.72F};
 constexpr float kHeelFrom = 0.20F, kHeelTo = 0.29F, kCalf = 0.50F;  ///< as shares of that path
 
-/// The weight of a meter through space against one along the skin. With 8 the front of a pointed foot's ankle
-/// is taken, with 2 that of an obese runner's.
+/// The weight of a meter through space against a meter along the skin, in the search for the heel. With 8 the
+/// front of the ankle wins on a pointed foot, with 2 on an obese runner.
 constexpr float kThroughSpace = 4.0F;
 
-/// No path along the skin is longer than over the toe: nothing that is searched lies farther than the sum of
-/// two distances from the toe, and what an edge adds at either end.
+/// An upper bound of the distance between two points at these distances from the toe. A path over the toe
+/// connects them, and an edge may be added at either end.
 float over_the_toe(const Skin& skin, float first, float second) {
   return first + second + 2.0F * skin.graph.longest;
 }
@@ -43,9 +43,10 @@ Field distances_from_calf(const Skin& skin, const Field& from_toe, float level, 
   return geodesic::distances_within(skin.graph, seeds, over_the_toe(skin, level, foot));
 }
 
-/// The heel is the dead end of the foot: the paths toe - heel - head and, twice, toe - heel - calf are long.
-/// A bent knee shortens the first over the back of the leg, a pointed foot the second; on a foot that is not
-/// pointed, the heel also lies farther from the toe through space than the front of the ankle does.
+/// Finds the heel, the vertex with the longest detour: the path toe - heel - head plus twice the path toe -
+/// heel - calf. A bent knee shortens the first path over the back of the leg, a pointed foot the second.
+/// Distance through space counts as well, because on a foot that is not pointed the heel is farther from the
+/// toe than the front of the ankle.
 Index find_heel(const Skin& skin, const Extremities& tips, Extremity foot, float leg) {
   const Field from_calf = distances_from_calf(skin, tips.field[foot], kCalf * leg, kHeelTo * leg);
   const Vec3& toe = skin.mesh.positions[tips.vertex[foot]];
@@ -64,7 +65,8 @@ Index find_heel(const Skin& skin, const Extremities& tips, Extremity foot, float
   return heel;
 }
 
-/// The direction around the loop in which the field is least: minus the first harmonic over arc length.
+/// The direction around the loop in which the field is least: the negative first harmonic of the field over
+/// arc length.
 std::complex<double> least_direction(const Skin& skin, const Isoline& loop, const Field& field) {
   std::complex<double> harmonic = 0.0;
   double along = 0.0;
@@ -86,8 +88,8 @@ double signed_turn(std::complex<double> first, std::complex<double> second) {
   return size > 0.0 ? std::imag(second * std::conj(first)) / size : 0.0;
 }
 
-/// Mean over the loops of what `reads` gives, for levels of the field that rises toward the trunk. The lower
-/// a loop, the more it counts: a bent knee disturbs those near it.
+/// The weighted mean of reads(loop) over loops at levels of a field that rises toward the trunk. Lower loops
+/// have larger weights, because a bent knee disturbs loops near it.
 template <class Reads>
 double mean_over_loops(const Skin& skin, const Field& field, const std::array<float, kReadAt.size()>& levels,
                        Reads reads) {
@@ -101,8 +103,9 @@ double mean_over_loops(const Skin& skin, const Field& field, const std::array<fl
   return sum / all;
 }
 
-/// Positive if the leg is the body's left: seen from the trunk, inner follows back counter-clockwise. Reads
-/// the back from the heel, on loops at equal distance from the toe.
+/// A number that is positive if the leg is the body's left one. Seen from the trunk, the inner side then
+/// follows the back counter-clockwise. The heel gives the back, and the other foot the inner side, on loops
+/// at equal distance from the toe.
 double leftness(const Skin& skin, const Extremities& tips, Extremity foot, Extremity other) {
   const float leg = 0.5F * tips.feet_apart();
   const geodesic::Seed from{find_heel(skin, tips, foot, leg), 0.0F};

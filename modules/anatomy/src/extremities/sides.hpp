@@ -11,7 +11,8 @@ struct Sides {
   double confidence = 0.0;  ///< 0..1
 };
 
-/// Reads the order front, outer, back, inner around each leg on the oriented skin, which no pose changes.
+/// Finds the left side by the order front, outer, back, inner around each leg. On an oriented skin no pose
+/// changes this order.
 Sides find_sides(const engine::Context& context, const Skin& skin, const Extremities& tips);
 
 }  // namespace bodice::anatomy

@@ -17,8 +17,8 @@ namespace {
 using geometry::Vec3;
 namespace data = coefficients::armpit;
 
-/// The Mahalanobis distance from which a signature is no evidence any more, in deviations. One armpit in
-/// fifty is more than 5.3 off, and mostly right all the same.
+/// The Mahalanobis distance from which a signature is no evidence, in deviations. One armpit in fifty has
+/// more than 5.3, and is mostly correct nevertheless.
 constexpr double kNoEvidence = 10.0;
 /// The margin over the best vertex elsewhere, in deviations, from which an armpit is unambiguous. It is 2 on
 /// nineteen bodies of twenty, and was less than 0.8 for every armpit that was over 6 % of the stature off.
@@ -37,9 +37,9 @@ FoundLandmark find(const LandmarkInput& input, int side) {
   return {{body::of_side(LandmarkId::kArmpitL, side), found.position, found.vertex, confidence}, {}};
 }
 
-/// The direction of the arm and the products of its coordinates without the square of the first; the build;
-/// and, as fractions of the body size, armpit to armpit and the vectors to the neck's joint, to breastbone
-/// and back.
+/// The measures that predict the armpit's correction, in order. First the direction of the arm, and the
+/// products of its coordinates except the first's square. Then the build. Then, as fractions of the body
+/// size, the distance of the armpits, and the vectors from the armpit to neck, breastbone and back.
 std::vector<double> arm_measures(const LandmarkInput& input, const Landmarks& marks, int side,
                                  const TrunkFrame& frame) {
   const double size = input.size_m();
@@ -57,8 +57,8 @@ std::vector<double> arm_measures(const LandmarkInput& input, const Landmarks& ma
   return measures;
 }
 
-/// An arm that is drawn forward or up takes the fold behind it along, which distances along the skin show
-/// only in part: the arm's direction and the build of the trunk show the rest.
+/// Corrects the armpit by the direction of the arm and the build of the trunk. An arm that is raised or
+/// reaches forward moves the fold behind it, which distances along the skin show only in part.
 FoundLandmark refine(const LandmarkInput& input, const Landmarks& marks, int side) {
   FoundLandmark armpit = marks[body::of_side(LandmarkId::kArmpitL, side)];
   if (input.fused()) return armpit;

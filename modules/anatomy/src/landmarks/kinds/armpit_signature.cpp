@@ -15,12 +15,17 @@ namespace {
 
 using geometry::Index;
 
-/// The signature of an armpit. Its features, in the order of armpit_features(): the distances from the own
-/// hand, the other hand, the own foot, front, back and perineum, and that past the shoulder level; front
-/// minus back and front plus back as shares of half the chest's girth; the detour between hand and foot; the
-/// distance from the other foot; the detours between head and hands and between head and feet; the distance
-/// from the head. They are expected by six measures of the body: half the chest's girth, hands apart, feet
-/// apart, trunk, and the distances of the crown from front and back.
+/// The signature of an armpit. Its features, in the order of armpit_features():
+/// 1 to 3. the distances from its own hand, from the other hand, and from its own foot;
+/// 4 to 6. the distances from front, back and perineum;
+/// 7. the distance past the shoulder level;
+/// 8 and 9. front minus back, and front plus back, as shares of half the chest's girth;
+/// 10. the detour of the path between its own hand and foot through the vertex;
+/// 11. the distance from the other foot;
+/// 12 and 13. the detours between head and hands, and between head and feet;
+/// 14. the distance from the head.
+/// Six measures of the body predict them: half the chest's girth, the distances between the hands, between
+/// the feet, and from perineum to crown, and the distances of the crown from front and back.
 constexpr Signature<14, 6> kArmpit = make_signature<14, 6>(
     coefficients::armpit::kMean, coefficients::armpit::kOfBody, coefficients::armpit::kWhiten);
 
@@ -33,9 +38,9 @@ constexpr float kNearShoulder = 0.075F, kArmpitDetour = 1.13F;
 /// and under the arm. Paths over the neck are shorter on heavy bodies.
 constexpr float kChestFrom = 0.30F, kOwnSide = 0.92F, kUnderArm = 1.08F;
 constexpr float kLeastHalfChest = 0.02F;  // a fraction of the body size
-/// The distance from the best vertex at which another one is elsewhere, as a fraction of the body size: more
-/// than a landmark's bar, less than from the armpit to the top of the shoulder, to the chest or to the back,
-/// which resemble it.
+/// Another vertex counts as elsewhere if it is farther than this from the best one, a fraction of the body
+/// size. This is more than a landmark's allowed error. It is less than the distance to the top of the
+/// shoulder, the chest or the back, which resemble an armpit.
 constexpr double kElsewhere = 0.06;
 
 }  // namespace

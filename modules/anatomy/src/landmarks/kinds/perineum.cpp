@@ -1,4 +1,4 @@
-// The floor of the trunk between the legs, where it begins to rise to the front.
+// The perineum: the point between the legs where the floor of the trunk begins to rise to the front.
 #include <algorithm>
 #include <cmath>
 
@@ -10,11 +10,11 @@ namespace bodice::inline v0_1::anatomy {
 namespace of_perineum {
 namespace {
 
-/// The Mahalanobis distance from which a signature is no evidence any more, in deviations. One perineum in
-/// fifty is more than 4 off.
+/// The Mahalanobis distance from which a signature is no evidence, in deviations. One correct perineum in
+/// fifty has more than 4.
 constexpr double kNoEvidence = 6.4;
-/// The distance of the perineum's margin from kFoldMargin, in deviations, from which it is clear whether the
-/// vertex that fits best is the perineum or the fold behind it.
+/// The difference between the perineum's margin and kFoldMargin, in deviations, from which the choice between
+/// perineum and fold behind it is clear.
 constexpr double kClearlyNoFold = 1.0;
 /// The correction by the legs at which a perineum is no evidence any more, as a fraction of the body size.
 /// Among 3,356 bodies 8 had one of more than .04, and the largest of those that were still 4 % of the stature

@@ -33,7 +33,7 @@ struct Thighs {
 };
 enum Axis { kOut, kUp, kAhead };
 
-/// One body in a thousand needs more; a fraction of the body size.
+/// The largest correction, which one body in a thousand exceeds; a fraction of the body size.
 constexpr double kFarthest = 0.04;
 /// The sum of the distances from breastbone and back to where the legs merge, on a body of middle build; a
 /// fraction of the body size.
@@ -56,9 +56,10 @@ double heaviness(const BodyCoordinates& coordinates) {
          kMiddleTrunk;
 }
 
-/// What is the same in a mirror: the thighs' mean directions, how far they differ, squares and products of
-/// these, and the products of those with how heavy the trunk is; the build; up and forward to where the legs
-/// merge and to the estimate by distances, forward and up to breastbone and back.
+/// The measures that a mirror image does not change. First the thighs' mean directions, the amounts by which
+/// they differ, and squares and products of these, also with the heaviness of the trunk. Then the build. Then
+/// upward and forward coordinates: of the merge of the legs, of the estimate by distances, and of breastbone
+/// and back.
 std::vector<double> even_measures(const LandmarkInput& input, const Trunk& trunk, const Thighs& thighs) {
   const BodyCoordinates& coordinates = input.coordinates;
   const double ahead = thighs.mean(kAhead), up = thighs.mean(kUp), out = thighs.mean(kOut);
@@ -92,8 +93,9 @@ std::vector<double> even_measures(const LandmarkInput& input, const Trunk& trunk
   return x;
 }
 
-/// What changes its sign in a mirror: differences of the thighs, their products with how heavy the trunk is
-/// and with their means; left to the two estimates and to the middle of breastbone and back.
+/// The measures that change sign in a mirror image. First the differences of the thighs' directions, and
+/// their products with the heaviness of the trunk and with their means. Then leftward coordinates: of the
+/// merge of the legs, of the estimate by distances, and of the middle between breastbone and back.
 std::vector<double> odd_measures(const LandmarkInput& input, const Trunk& trunk, const Thighs& thighs) {
   const BodyCoordinates& coordinates = input.coordinates;
   const double ahead = thighs.differ(kAhead), up = thighs.differ(kUp);

@@ -14,9 +14,9 @@ namespace {
 using geometry::Vec3;
 namespace data = coefficients::perineum;
 
-/// The points of the line that are read, from front to back, in spacings.
+/// The points of the line that are measured, from front to back, in multiples of its spacing.
 constexpr std::array<int, 10> kReadAt{-10, -8, -6, -4, -2, 2, 4, 6, 8, 10};
-/// The chord between these two points of the line, in front and behind, is level.
+/// The chord from the point this far in front to that as far behind defines the forward direction.
 constexpr int kChord = 9;
 
 using Shape = std::array<double, 2 * kReadAt.size()>;
@@ -24,9 +24,9 @@ using Shape = std::array<double, 2 * kReadAt.size()>;
 /// The largest shift that a calibration body needs is .037 of the body size.
 constexpr double kMost = 0.04;
 
-/// How far behind the first estimate the perineum lies, as a fraction of the body size: a constant, then what
-/// each point's depth below the first estimate counts, then its distance before it. One form for bent legs,
-/// and one that is added on straight legs.
+/// How far behind the first estimate the perineum lies, as a fraction of the body size. The weights are a
+/// constant, then one for each point's depth below the first estimate, then one for its distance in front of
+/// it. There are weights for bent legs, and others that are added for straight legs.
 double shift_on(const Shape& shape, std::span<const double> weights) {
   double sum = weights[0];
   for (std::size_t i = 0; i < shape.size(); ++i) sum += weights[i + 1] * shape[i];
@@ -49,7 +49,7 @@ Shape shape_of(const CrotchLine& line, double size) {
   return shape;
 }
 
-/// A weight: 0 if a knee is drawn up to a right angle or more, 1 if both legs go on where the trunk ends.
+/// A weight: 0 if a thigh is at a right angle to the trunk or more, 1 if both thighs continue the trunk.
 double straightness(const Landmarks& marks) {
   constexpr double kBentCosine = 0.2, kStraightCosine = 0.8;
   const Vec3& perineum = marks.at(LandmarkId::kPerineum);
