@@ -6,8 +6,7 @@
 
 using namespace bodice;
 
-TEST_CASE(
-    "fabric: every preset has its name and is valid, and known fabrics differ as they should") {
+TEST_CASE("fabric: every preset has its name and is valid, and known fabrics differ as they should") {
   const auto names = cloth::fabric_names();
   REQUIRE(names.size() == 5);
   for (const std::string& name : names) {

@@ -75,7 +75,7 @@ TEST_CASE(
   check_body_priority(1.1, 0.3, false);
 }
 
-TEST_CASE("pinch: the same holds for layers whose pinned rims are far from the contact") {
+TEST_CASE("pinch: the same holds for layers with pinned rims far from the contact") {
   check_body_priority(1.25, 0.5, true);
 }
 

@@ -70,8 +70,8 @@ SampleTest classify(const FaceSample& s, Float4 where, const FaceContact& f) {
   return {.behind = true, .quiet_m = stale_m};
 }
 
-// Tests the samples of a run that may have come too near. It queries those whose distances are out of date,
-// and lists those to push.
+// Tests the samples of a run that may have come too near. Queries samples with distances that are out of
+// date, and lists samples to push.
 void refresh_run(const collision::Collider& body, const FaceSubstep& substep, std::size_t run,
                  FaceContact& f) {
   RunState& state = f.run[run];

@@ -10,7 +10,7 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-constexpr int kMostAdvances = 24;  // steps along a path; if they do not suffice, the parts count as meeting
+constexpr int kMostAdvances = 24;  // steps along a path; if they do not suffice, may_meet() returns true
 constexpr float kAdvance = 0.9f;   // share of the safe path that a step takes, for rounding
 
 Closest of_weights(const Corners& c, Float4 weight) {

@@ -52,7 +52,8 @@ struct ContactMesh {
   }
 };
 
-/// Divides the triangles of a welded garment, whose particles are in Morton order, into leaves. O(n log n).
+/// Divides the triangles of a welded garment into leaves. Precondition: its particles are in Morton order.
+/// O(n log n).
 ContactMesh make_contact_mesh(const geometry::TriMesh& mesh);
 
 /// Whether two leaves are the same, or share a particle around which the surface is one patch.

@@ -102,7 +102,7 @@ struct PairTask {
 /// The tasks of a garment.
 std::vector<PairTask> make_pair_tasks(const ContactMesh& mesh);
 
-/// A new group of two leaves, whose distance exceeds the gap by `room_m`.
+/// A new group of two leaves with a distance that exceeds the gap by `room_m`.
 PairGroup new_group(const ContactMesh& mesh, std::size_t leaf, std::size_t other, float room_m);
 
 /// Merges groups, which are in order, into those of a task.
@@ -137,8 +137,8 @@ struct PairSearch {
 /// Finds the pairs of a group that may be nearer than the gap before its leaves have moved by the slack.
 void find_pairs(const ContactMesh& mesh, const PairSearch& search, PairGroup& group, PairTask& task);
 
-/// Drops the pairs of a group whose leaves may move by `room_m` against each other before a pair is as near
-/// as the gap.
+/// Drops the pairs of a group with leaves that may move by `room_m` against each other before a pair is as
+/// near as the gap.
 void clear_pairs(float room_m, PairGroup& group, PairTask& task);
 
 /// Ends a substep: adds its steps to the travel of all groups, and marks the leaves of folded groups.

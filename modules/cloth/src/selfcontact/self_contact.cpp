@@ -14,11 +14,9 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-// The largest gap, as a share of the median edge. With a larger one, neighboring parts of smooth cloth would
-// all be pairs.
+// The largest gap, as a share of the median edge: neighboring parts of smooth cloth must not be pairs.
 constexpr double kMostOfEdge = 0.25;
-// The least gap, as a share of the median edge, for cloth without thickness. Floats need some room to
-// distinguish sides.
+// The least gap, as a share of the median edge: floats need some room to distinguish sides.
 constexpr double kLeastOfEdge = 0.002;
 // Shares of the median edge. After a relative motion of kSlackOfEdge, the pairs of two leaves are found anew.
 // After an unexpected approach of kSpareOfEdge, the groups of leaves are listed anew. Larger shares mean
@@ -30,11 +28,11 @@ constexpr float kRecovery_m_s = 0.1f;
 // The speed at which triangles that cross are drawn apart.
 constexpr float kUntangle_m_s = 1.0f;
 
-// The deviations, as shares of the spare distance, that particles may have before and after contacts moved
-// them. Two particles may use one half each against each other.
+// The deviations, in spare distances, that particles may have before and after contacts moved them. Two
+// particles may each use half of the spare distance against each other.
 constexpr float kUsedBefore = 0.4f, kUsedAfter = 0.499f;
-// The largest deviations, in spare distances, that are expected of particles on the body. A moving body
-// brings layers together, and with a smaller value their pairs would be found too late.
+// The largest deviations that are expected of particles on the body. On a moving body, which brings layers
+// together, a smaller one would find pairs too late.
 constexpr float kUsedStill = 0.2f, kUsedMoving = 1.0f;
 
 // The largest share of its allowed deviation that a particle may have used right after a search.
@@ -45,7 +43,7 @@ constexpr int kHeldRounds = 6, kHeldSweeps = 4;
 // After kFirmRounds rounds of zones, a pair may cross if the body presses it from both sides or if it lies
 // within one zone. After kMostRounds rounds all particles move together.
 constexpr int kFirmRounds = 4, kMostRounds = 16;
-// The number of times that guards are set for particles which sink into the body, before layers may cross.
+// The number of times that guards are set for sinking particles before layers may cross.
 constexpr int kGuardings = 4;
 
 // The share of the thickness that particles keep from the body where layers would otherwise cross. With a
@@ -54,13 +52,10 @@ constexpr float kYieldedShare = 0.3f;
 
 constexpr std::size_t kMovesATask = 256;
 
-// All groups are listed anew in a frame that begins with more than this many groups of strayed particles for
-// each leaf.
+// The most groups of strayed particles, for each leaf, before a frame lists all groups anew.
 constexpr std::size_t kMostListedALeaf = 1;
 
-// If layers cross in this many substeps of a frame although cloth came nearer to the body, the cloth is
-// crushed. For the rest of the frame it keeps its thickness, because coming nearer separates nothing and
-// takes a quarter of the time.
+// The most substeps of a frame in which crushed cloth tries in vain to come nearer to the body.
 constexpr int kFailedYields = 2;
 
 // Lists the groups on the expected paths, and the triangles that cross where these are not known.
@@ -179,9 +174,9 @@ bool guard_moved_particles(const engine::Context& context, const ResolvedBody& b
   return guard_sunk(context, body, s.moved, s.zones.resolved, s.now, s.zones.guard);
 }
 
-// Separates the pairs that would cross, and moves no particle nearer to the body than `body.least_m`. Returns
-// whether that succeeded. Particles that sank are kept in front of their guards. Particles that still sink
-// are put back, because contact with the body has priority.
+// Separates the pairs that would cross, and moves no particle nearer to the body than `body.least_m`; returns
+// whether that succeeded. Particles that sank are kept in front of their guards, or put back if they still
+// sink.
 bool separate_all(const engine::Context& context, const SelfSubstep& substep, const ResolvedBody& body,
                   const Particles& p, SelfContact& s) {
   std::ranges::fill(s.zones.guard, Guard{});
@@ -258,7 +253,7 @@ void begin_self_contact(const engine::Context& context, const Particles& p, Self
   s.report = {};
   s.failed_yields = 0;
   if (s.origin != p.origin) forget_pairs(s);
-  // Without this, groups that were added for a strayed particle would stay listed until the next search.
+  // Groups that were added for strayed particles would otherwise stay until the next search.
   if (s.strayed.listed > kMostListedALeaf * s.mesh.leaves()) s.searched = false;
   s.origin = p.origin;
   copy_points(context, p, s.before);

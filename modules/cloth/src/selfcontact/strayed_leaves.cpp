@@ -62,7 +62,7 @@ void list_missing_groups(const SweepTree& tree, float reach_m, const std::vector
   s.wanted.erase(repeated.begin(), repeated.end());
 }
 
-// Adds the missing groups to a task, whose groups stay sorted. Their distances are those when the substep
+// Adds the missing groups to those of a task, which stay sorted. Their distances are those when the substep
 // began.
 void add_missing_groups(std::span<const WantedGroup> wanted, const SelfContact& s,
                         std::vector<PairGroup>& room, PairTask& task) {

@@ -58,8 +58,9 @@ float friction_share_at(float strain, float full) {
   return strain > full ? std::max(0.0f, 1.0f - (strain - full) / kFrictionFade) : 1.0f;
 }
 
-// Reduces the friction of particles whose edges exceeded the limit of the fabric by far when the last frame
-// ended. A body in a clip does not yield to tight cloth, and full friction would keep that cloth stretched.
+// Reduces the friction of particles with edges that exceeded the limit of the fabric by far when the last
+// frame ended. A body in a clip does not yield to tight cloth, and full friction would keep that cloth
+// stretched.
 void reduce_friction_where_stretched(State& s) {
   std::vector<float>& share = s.contacts.friction_share;
   const float full = static_cast<float>(s.fabric.max_stretch) + kFullFrictionBeyond;

@@ -14,7 +14,7 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// The cloth, and the body twice. Cloth collides with `contact_body`, whose tables beyond the garments' reach
+/// The cloth, and the body twice. Cloth collides with `contact_body`; its tables beyond the garments' reach
 /// stay as at rest. The report measures `whole_body`.
 struct Scene {
   const Wardrobe& all;

@@ -37,7 +37,7 @@ constexpr double kLeastSize = 0.03, kLeastSizeInUnit = 0.1, kMostSize = 4.0;
 constexpr double kMayFall = 0.25;
 constexpr double kLongestShift = 0.34;
 constexpr int kShiftSteps = 20;
-// A garment whose samples have a smaller median distance from the skin, in statures, keeps its unit.
+// A garment with samples of a smaller median distance from the skin, in statures, keeps its unit.
 constexpr double kClose = 0.02;
 constexpr double kMostOff = 0.02;  // the largest gap of a shifted garment to the skin, in statures
 

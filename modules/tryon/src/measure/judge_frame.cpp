@@ -62,7 +62,7 @@ ProxyError summarize(const std::vector<Sample>& samples) {
   return result;
 }
 
-/// A triangle of cloth, which is split into equal triangles whose centers are its samples.
+/// A triangle of cloth. It is split into equal triangles, and their centers are its samples.
 struct SampledTriangle {
   Vec3 a, b, c;
   double area_m2 = 0.0, longest_m = 0.0;

@@ -9,8 +9,8 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// The joints of a body over the frames of a session. A ramp leads from another pose to that of the clip,
-/// whose time stands still meanwhile. Only the constructor allocates.
+/// The joints of a body over the frames of a session. A ramp leads from another pose to that of the clip; the
+/// time of the clip stands still meanwhile. Only the constructor allocates.
 class ClipPlayback {
  public:
   ClipPlayback(std::shared_ptr<const BodyMotion> motion, rig::Playback playback);

@@ -32,7 +32,7 @@ class MovingBody {
   engine::Result<void> pose(const engine::Context& context, std::span<const rig::Affine> joints, double dt_s,
                             const binding::PoseOptions& options = {});
 
-  /// Adds base poses, whose tables later poses use. Fails where one belongs to another body.
+  /// Adds base poses with tables that later poses use. Fails where one belongs to another body.
   engine::Result<void> keep_bases(const proxy::BasePoses& bases);
 
   /// Starts a blend from the present shape of another body of the same vertices to this body's own.

@@ -23,8 +23,8 @@ struct ProxyError {
 };
 
 /// Measures a collider at 4,000 points within `within_m` of the skin, spread evenly over its area and its two
-/// sides. Points inside skin that overlaps itself, and points whose closest skin is buried in the body, have
-/// no meaningful distance and are left out. `distance` is of `skin`, both in the pose of the collider.
+/// sides. Points inside skin that overlaps itself, and points with closest skin that is buried in the body,
+/// have no meaningful distance and are left out. `distance` is of `skin`, both in the pose of the collider.
 /// Deterministic for any number of workers. Cost: a signed distance, two winding numbers and a query a point.
 ProxyError measure_proxy_error(const engine::Context& context, const collision::Collider& collider,
                                const geometry::TriMesh& skin, const geometry::MeshDistance& distance,
