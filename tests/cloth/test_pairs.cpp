@@ -17,7 +17,7 @@ struct Strip {
   std::vector<cloth::Point> at;
   std::vector<cloth::PairTask> tasks;
   std::vector<cloth::LeafMove> moves;
-  std::vector<float> off_m;
+  std::vector<float> deviation_m;
   std::vector<std::uint8_t> folded, loose;
 
   explicit Strip(double angle) {
@@ -28,13 +28,13 @@ struct Strip {
     tasks.resize(1);
     tasks[0].groups.push_back(cloth::new_group(mesh, 0, 1, 0.0f));
     for (const std::size_t leaf : {0, 1}) moves.push_back(cloth::move_of(mesh, leaf, at, at));
-    off_m.resize(2), folded.resize(2), loose.resize(at.size());
+    deviation_m.resize(2), folded.resize(2), loose.resize(at.size());
   }
 
   cloth::PairGroup& group() { return tasks[0].groups[0]; }
   void keep(float step_m) {
     // Quads are a quarter long, so that this gap makes pairs of neighbors.
-    const cloth::ContactSource source{mesh, {0.25f, 0.1f, 0.0f, at, folded}, at, moves, off_m, loose};
+    const cloth::ContactSource source{mesh, {0.25f, 0.1f, 0.0f, at, folded}, at, moves, deviation_m, loose};
     cloth::update_pairs(source, step_m, group(), tasks[0]);
   }
   bool has_pairs() { return group().end > group().begin; }
@@ -63,7 +63,7 @@ TEST_CASE("pairs: a flat patch has no pairs until it may have folded") {
   CHECK(strip.group().spared);
   CHECK_FALSE(strip.has_pairs());
   // A turn by 75 degrees takes a path of the triangles' height by its sine.
-  CHECK(double{strip.group().find_m} ==
+  CHECK(double{strip.group().complete_until_m} ==
         doctest::Approx(kStripHeight_m * std::sin(75.0 * std::numbers::pi / 180.0)).epsilon(1e-4));
 }
 
@@ -109,6 +109,6 @@ TEST_CASE(
   cloth::PairGroup group = cloth::new_group(leaves, 0, 1, 0.0f);
   cloth::find_pairs(leaves, {kGap_m, kSlack_m, 0.0f, at, folded}, group, task);
   CHECK(group.begin == group.end);
-  CHECK(group.find_m > kSlack_m);
-  CHECK(double{group.find_m} == doctest::Approx(kApart_m - double{kGap_m}).epsilon(1e-3));
+  CHECK(group.complete_until_m > kSlack_m);
+  CHECK(double{group.complete_until_m} == doctest::Approx(kApart_m - double{kGap_m}).epsilon(1e-3));
 }

@@ -60,10 +60,10 @@ void begin_face_frame(const engine::Context& context, const ContactFrame& frame,
                       const Environment& environment, const MotionNearParticles& motion,
                       const Particles& particles, FaceContact& faces);
 
-/// What a substep does with the faces.
+/// The parameters of a substep for the contact of faces.
 struct FaceSubstep {
   float length_s = 0.0f;
-  float share = 0.0f;      ///< of the frame
+  float share = 0.0f;      ///< share of the frame that the substep takes
   float remaining = 0.0f;  ///< share of the frame that is left after it
 };
 

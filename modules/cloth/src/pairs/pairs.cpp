@@ -142,8 +142,8 @@ std::vector<PairTask> make_pair_tasks(const ContactMesh& mesh) {
 
 PairGroup new_group(const ContactMesh& mesh, std::size_t leaf, std::size_t other, float room_m) {
   return {.leaf = {static_cast<std::uint32_t>(leaf), static_cast<std::uint32_t>(other)},
-          .next_m = room_m,
-          .find_m = room_m,
+          .apart_until_m = room_m,
+          .complete_until_m = room_m,
           .joined = are_joined(mesh, leaf, other),
           .inside = mesh.block[leaf] == mesh.block[other] && mesh.block[leaf] != kNoBlock};
 }
@@ -155,15 +155,15 @@ void add_groups(std::span<const PairGroup> groups, PairTask& task) {
   std::swap(task.groups, task.groups_before);
 }
 
-void wake_groups(const ContactMesh& mesh, std::span<const float> off_m, PairTask& task) {
+void wake_groups(const ContactMesh& mesh, std::span<const float> deviation_m, PairTask& task) {
   task.woken.clear();
   for (const ClearGroup& group : task.clear) {
-    if (group.holds(off_m)) continue;
+    if (group.holds(deviation_m)) continue;
     task.woken.push_back(new_group(mesh, group.leaf[0], group.leaf[1], 0.0f));
   }
   if (task.woken.empty()) return;
   add_groups(task.woken, task);
-  std::erase_if(task.clear, [&](const ClearGroup& group) { return !group.holds(off_m); });
+  std::erase_if(task.clear, [&](const ClearGroup& group) { return !group.holds(deviation_m); });
 }
 
 void find_groups(const engine::Context& context, const ContactMesh& mesh, const SweepTree& tree,
@@ -195,15 +195,15 @@ void find_pairs(const ContactMesh& mesh, const PairSearch& search, PairGroup& gr
   if (had_none && group.begin == group.end)
     return clear_pairs(std::min(leaves.apart_m, far_m) - search.gap_m, group, task);
   task.used += group.end - group.begin;
-  for (std::uint32_t k = group.begin; k < group.end; ++k) task.pairs[k].until_m = group.travel_m;
-  group.find_m = group.travel_m + search.slack_m;
-  group.next_m = group.begin == group.end ? group.find_m : group.travel_m;
+  for (std::uint32_t k = group.begin; k < group.end; ++k) task.pairs[k].apart_until_m = group.travel_m;
+  group.complete_until_m = group.travel_m + search.slack_m;
+  group.apart_until_m = group.begin == group.end ? group.complete_until_m : group.travel_m;
 }
 
 void clear_pairs(float room_m, PairGroup& group, PairTask& task) {
   task.used -= group.end - group.begin;
   group.begin = group.end = 0;
-  group.next_m = group.find_m = group.travel_m + room_m;
+  group.apart_until_m = group.complete_until_m = group.travel_m + room_m;
 }
 
 void end_groups(const engine::Context& context, std::vector<PairTask>& tasks,

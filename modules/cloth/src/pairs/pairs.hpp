@@ -20,8 +20,8 @@ inline constexpr float kGapUnknown = -1.0f;
 
 /// Two parts of the cloth without a common particle.
 struct Pair {
-  Index particle[4];     ///< those of A, then those of B (Corners)
-  float until_m = 0.0f;  ///< while its group's travel is less, it is farther apart than its gap
+  Index particle[4];           ///< those of A, then those of B (Corners)
+  float apart_until_m = 0.0f;  ///< while its group's travel is less, it is farther apart than its gap
   /// The distance to keep; kGapUnknown: not computed yet, 0: the pair has no contact.
   float gap_m = kGapUnknown;
   /// Index of its contact in this substep, valid where its group is fresh.
@@ -35,14 +35,14 @@ struct PairGroup {
   std::uint32_t begin = 0, end = 0;  ///< its range in PairTask::pairs
   /// Bound on how far the two leaves moved against each other since the group was listed.
   float travel_m = 0.0f;
-  float step_m = 0.0f;  ///< the same for this substep alone; set by find_crossing()
-  float next_m = 0.0f;  ///< while `travel_m` is less, none of its pairs is nearer than its gap
-  float find_m = 0.0f;  ///< while `travel_m` is less, its list of pairs is complete
-  bool joined = false;  ///< are_joined()
-  bool folded = false;  ///< whether its patch was not flat at the last test (travel_while_flat())
-  bool spared = false;  ///< whether it has no pairs because its patch was flat
-  bool inside = false;  ///< whether all of its particles are in one block
-  bool fresh = false;   ///< whether its pairs' contacts belong to this substep
+  float step_m = 0.0f;            ///< the same for this substep alone; set by find_crossing()
+  float apart_until_m = 0.0f;     ///< while `travel_m` is less, none of its pairs is nearer than its gap
+  float complete_until_m = 0.0f;  ///< while `travel_m` is less, its list of pairs is complete
+  bool joined = false;            ///< are_joined()
+  bool folded = false;            ///< whether its patch was not flat at the last test (travel_while_flat())
+  bool spared = false;            ///< whether it has no pairs because its patch was flat
+  bool inside = false;            ///< whether all of its particles are in one block
+  bool fresh = false;             ///< whether its pairs' contacts belong to this substep
 };
 
 /// Two leaves that stay so far apart on their expected paths that they need no pairs.
@@ -51,8 +51,10 @@ struct ClearGroup {
   float room_m;  ///< their least distance on the expected paths, less the gap, meters
 
   /// Whether their parts stay farther apart than the gap while leaves deviate from the expected paths by
-  /// `off_m`, #leaves.
-  bool holds(std::span<const float> off_m) const { return off_m[leaf[0]] + off_m[leaf[1]] < room_m; }
+  /// `deviation_m`, #leaves.
+  bool holds(std::span<const float> deviation_m) const {
+    return deviation_m[leaf[0]] + deviation_m[leaf[1]] < room_m;
+  }
 };
 
 /// The two leaves of a group, by which groups are sorted.
@@ -115,9 +117,9 @@ void add_groups(std::span<const PairGroup> groups, PairTask& task);
 void find_groups(const engine::Context& context, const ContactMesh& mesh, const SweepTree& tree,
                  float reach_m, float gap_m, std::vector<PairTask>& tasks);
 
-/// Turns clear groups into groups with pairs, where the deviations `off_m` (#leaves) from the expected paths
-/// have used up their room.
-void wake_groups(const ContactMesh& mesh, std::span<const float> off_m, PairTask& task);
+/// Turns clear groups into groups with pairs, where the deviations `deviation_m` (#leaves) from the expected
+/// paths have used up their room.
+void wake_groups(const ContactMesh& mesh, std::span<const float> deviation_m, PairTask& task);
 
 /// The parameters of a search for pairs.
 struct PairSearch {

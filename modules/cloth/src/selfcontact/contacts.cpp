@@ -45,22 +45,22 @@ float gap_of(const ContactSource& source, const Pair& pair) {
 // each other.
 void refresh_group(const ContactSource& source, float step_m, PairGroup& group, PairTask& task) {
   std::vector<PairContact>& contacts = task.contacts[group.inside];
-  group.next_m = group.find_m, group.fresh = true;
+  group.apart_until_m = group.complete_until_m, group.fresh = true;
   for (std::uint32_t k = group.begin; k < group.end; ++k) {
     Pair& pair = task.pairs[k];
     pair.contact = kNoContact;
-    if (!(pair.until_m > group.travel_m + step_m)) {
+    if (!(pair.apart_until_m > group.travel_m + step_m)) {
       const PairContact contact = contact_of(source, pair);
-      pair.until_m = pair.gap_m == 0.0f ? kNoPath_m : group.travel_m + contact.apart_m - contact.gap_m;
+      pair.apart_until_m = pair.gap_m == 0.0f ? kNoPath_m : group.travel_m + contact.apart_m - contact.gap_m;
       if (are_loose(pair.particle, pair.edges, source.loose)) {
         // It is tested again when it is no longer loose.
-        pair.until_m = std::min(pair.until_m, group.travel_m);
-      } else if (pair.until_m < group.travel_m + step_m) {
+        pair.apart_until_m = std::min(pair.apart_until_m, group.travel_m);
+      } else if (pair.apart_until_m < group.travel_m + step_m) {
         pair.contact = static_cast<std::uint32_t>(contacts.size());
         contacts.push_back(contact);
       }
     }
-    group.next_m = std::min(group.next_m, pair.until_m);
+    group.apart_until_m = std::min(group.apart_until_m, pair.apart_until_m);
   }
 }
 
@@ -136,7 +136,7 @@ PairContact contact_of(const ContactSource& source, Pair& pair) {
 }
 
 void update_pairs(const ContactSource& source, float step_m, PairGroup& group, PairTask& task) {
-  const bool kept = !(group.travel_m + step_m > group.find_m);
+  const bool kept = !(group.travel_m + step_m > group.complete_until_m);
   if (kept && !(group.spared && source.search.is_folded(group))) return;
   PairSearch search = source.search;
   search.slack_m = std::max(search.slack_m, kAhead * step_m), search.step_m = step_m;
@@ -156,12 +156,12 @@ void refresh_contacts(const engine::Context& context, const ContactSource& sourc
     PairTask& task = tasks[t];
     for (auto& contacts : task.contacts) contacts.clear();
     drop_unused_pairs(task);
-    wake_groups(source.mesh, source.off_m, task);
+    wake_groups(source.mesh, source.deviation_m, task);
     for (PairGroup& group : task.groups) {
       const float step_m = source.step_of(group);
       group.fresh = false;
       update_pairs(source, step_m, group, task);
-      if (!(group.next_m > group.travel_m + step_m)) refresh_group(source, step_m, group, task);
+      if (!(group.apart_until_m > group.travel_m + step_m)) refresh_group(source, step_m, group, task);
     }
   });
 }

@@ -33,7 +33,8 @@ struct ContactSource {
   PairSearch search;                ///< at the positions when the substep began
   std::span<const Point> rest;      ///< #P: positions at rest
   std::span<const LeafMove> moves;  ///< #leaves: in this substep
-  std::span<const float> off_m;  ///< #leaves: their deviations from the expected paths when the substep ends
+  /// #leaves: their deviations from the expected paths when the substep ends.
+  std::span<const float> deviation_m;
   /// #P: a pair has no contact where both of its parts have loose particles.
   std::span<const std::uint8_t> loose;
 

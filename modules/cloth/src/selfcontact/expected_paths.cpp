@@ -21,20 +21,21 @@ constexpr float kNoDrift2 = 1e-20f;
 }  // namespace
 
 Expectation::Expectation(float since_s, float most, const SelfContact& s)
-    : self(s), share(std::min(1.0f, since_s / s.ahead_s)), most_m(most) {}
+    : self(s), share(std::min(1.0f, since_s / s.expected_s)), most_m(most) {}
 
 bool measure_deviations(const engine::Context& context, std::span<const Point> at, float since_s,
                         float most_m, SelfContact& s) {
   const Expectation expected(since_s, most_m, s);
   std::atomic<bool> far{false};
-  engine::parallel_for(context, s.found.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    bool any_far = false;
-    for (std::size_t i = begin; i < end; ++i) {
-      s.off2[i] = expected.off2(at, i);
-      any_far = any_far || !expected.allows(s.off2[i], i);
-    }
-    if (any_far) far.store(true, std::memory_order_relaxed);
-  });
+  engine::parallel_for(context, s.search_start.size(), kParticleGrain,
+                       [&](std::size_t begin, std::size_t end) {
+                         bool any_far = false;
+                         for (std::size_t i = begin; i < end; ++i) {
+                           s.deviation2[i] = expected.deviation2(at, i);
+                           any_far = any_far || !expected.allows(s.deviation2[i], i);
+                         }
+                         if (any_far) far.store(true, std::memory_order_relaxed);
+                       });
   return far.load();
 }
 
@@ -44,31 +45,32 @@ bool measure_deviations_of(std::span<const std::uint32_t> leaves, std::span<cons
   bool any_far = false;
   for (const std::uint32_t leaf : leaves)
     for (const Index i : s.mesh.particles_of(leaf)) {
-      s.off2[i] = expected.off2(at, i);
-      any_far = any_far || !expected.allows(s.off2[i], i);
+      s.deviation2[i] = expected.deviation2(at, i);
+      any_far = any_far || !expected.allows(s.deviation2[i], i);
     }
   return any_far;
 }
 
 float largest_deviation(std::size_t leaf, const SelfContact& s) {
-  float off2 = 0.0f;
-  for (const Index i : s.mesh.particles_of(leaf)) off2 = std::max(off2, s.off2[i]);
-  return std::sqrt(off2);
+  float deviation2 = 0.0f;
+  for (const Index i : s.mesh.particles_of(leaf)) deviation2 = std::max(deviation2, s.deviation2[i]);
+  return std::sqrt(deviation2);
 }
 
 void expect_paths(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,
                   float most_m, SelfContact& s) {
-  s.ahead_s = std::max(substep.length_s, substep.frame_s), s.since_s = 0.0f;
-  const float share = substep.length_s / s.ahead_s;
-  engine::parallel_for(context, s.found.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Float4 path = xyz(load(at[i]) - load(s.before[i])), expected = xyz(s.ahead_s * load(s.drift[i])),
-                   off = path - share * expected;
-      s.found[i] = s.before[i], s.beyond_m[i] = 0.0f;
-      const float kept = std::min(1.0f, most_m / std::sqrt(dot(off, off) + kTinyLength2));
-      store(s.ahead[i], expected + (1.0f - kept) / share * off);
-    }
-  });
+  s.expected_s = std::max(substep.length_s, substep.frame_s), s.since_s = 0.0f;
+  const float share = substep.length_s / s.expected_s;
+  engine::parallel_for(
+      context, s.search_start.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const Float4 path = xyz(load(at[i]) - load(s.before[i])),
+                       expected = xyz(s.expected_s * load(s.drift[i])), off = path - share * expected;
+          s.search_start[i] = s.before[i], s.allowance_m[i] = 0.0f;
+          const float kept = std::min(1.0f, most_m / std::sqrt(dot(off, off) + kTinyLength2));
+          store(s.expected_move[i], expected + (1.0f - kept) / share * off);
+        }
+      });
 }
 
 void expect_contact_positions(const engine::Context& context, const SelfSubstep& substep, float most_m,
@@ -79,8 +81,8 @@ void expect_contact_positions(const engine::Context& context, const SelfSubstep&
       if (!substep.touching[i]) continue;
       const Float4 expected = xyz(load(s.before[i]) + substep.length_s * load(s.drift[i]));
       const Float4 off = xyz(load(p.point[i])) - expected;
-      const float off_m = std::sqrt(dot(off, off));
-      if (off_m > most_m) store(s.now[i], expected + (most_m / off_m) * off);
+      const float length_m = std::sqrt(dot(off, off));
+      if (length_m > most_m) store(s.now[i], expected + (most_m / length_m) * off);
     }
   });
 }

@@ -12,23 +12,23 @@ struct Expectation {
   float share, most_m;
 
   /// The expectation `since_s` after the search. A particle may deviate by `most_m` plus its own allowance,
-  /// SelfContact::beyond_m.
+  /// SelfContact::allowance_m.
   Expectation(float since_s, float most_m, const SelfContact& self);
 
   /// The squared deviation of particle i at `at`, square meters.
-  float off2(std::span<const Point> at, std::size_t i) const {
-    const Float4 off = xyz(load(at[i]) - load(self.found[i]) - share * load(self.ahead[i]));
+  float deviation2(std::span<const Point> at, std::size_t i) const {
+    const Float4 off = xyz(load(at[i]) - load(self.search_start[i]) - share * load(self.expected_move[i]));
     return dot(off, off);
   }
   /// Whether particle i may deviate by this squared distance.
-  bool allows(float off2, std::size_t i) const {
-    const float allowed_m = most_m + self.beyond_m[i];
-    return off2 <= allowed_m * allowed_m;
+  bool allows(float deviation2, std::size_t i) const {
+    const float allowed_m = most_m + self.allowance_m[i];
+    return deviation2 <= allowed_m * allowed_m;
   }
 };
 
-/// Stores the deviations of the particles at `at`, `since_s` after the search, in SelfContact::off2. Returns
-/// whether any exceeds what Expectation allows.
+/// Stores the deviations of the particles at `at`, `since_s` after the search, in SelfContact::deviation2.
+/// Returns whether any exceeds what Expectation allows.
 bool measure_deviations(const engine::Context& context, std::span<const Point> at, float since_s,
                         float most_m, SelfContact& self);
 

@@ -17,6 +17,7 @@ struct Loose {
   std::vector<Index> list;
 };
 
+/// The state for this number of particles, none of them loose.
 Loose make_loose(std::size_t particles);
 
 /// Makes the corners of all tangles loose, and no other particle. When the corners' neighbors were loose as

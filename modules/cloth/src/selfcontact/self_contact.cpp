@@ -18,9 +18,8 @@ namespace {
 constexpr double kMostOfEdge = 0.25;
 // The least gap, as a share of the median edge: floats need some room to distinguish sides.
 constexpr double kLeastOfEdge = 0.002;
-// Shares of the median edge. After a relative motion of kSlackOfEdge, the pairs of two leaves are found anew.
-// After an unexpected approach of kSpareOfEdge, the groups of leaves are listed anew. Larger shares mean
-// longer lists, smaller ones more searches.
+// Shares of the median edge. After a relative motion of kSlackOfEdge pairs are found anew, after an
+// unexpected approach of kSpareOfEdge groups. Larger shares mean longer lists, smaller ones more searches.
 constexpr double kSlackOfEdge = 0.2, kSpareOfEdge = 1.0;
 
 // The speed at which layers that begin too close move apart: a fold's width in a few frames.
@@ -60,9 +59,9 @@ constexpr int kFailedYields = 2;
 
 // Lists the groups on the expected paths, and the triangles that cross where these are not known.
 void search(const engine::Context& context, SelfContact& s) {
-  refit(context, s.mesh, {s.found, s.ahead, {}}, s.tree);
+  refit(context, s.mesh, {s.search_start, s.expected_move, {}}, s.tree);
   if (!s.crossings_known) {
-    find_tangles(context, s.mesh, s.tree, s.found, s.tasks, s.tangles);
+    find_tangles(context, s.mesh, s.tree, s.search_start, s.tasks, s.tangles);
     loosen(s.mesh, s.tangles, s.loose);
   }
   s.searched = s.tree_has_sweeps = s.crossings_known = true;
@@ -84,12 +83,13 @@ void update_groups(const engine::Context& context, const SelfSubstep& substep, s
 }
 
 ContactSource source_of(const SelfContact& s) {
-  return {s.mesh, {s.gap_m, s.slack_m, 0.0f, s.before, s.folded}, s.rest, s.moves, s.off_m, s.loose.is_loose};
+  return {s.mesh,          {s.gap_m, s.slack_m, 0.0f, s.before, s.folded}, s.rest, s.moves, s.deviation_m,
+          s.loose.is_loose};
 }
 
 void find_move(std::size_t leaf, SelfContact& s) {
   s.moves[leaf] = move_of(s.mesh, leaf, s.before, s.now);
-  s.off_m[leaf] = largest_deviation(leaf, s);
+  s.deviation_m[leaf] = largest_deviation(leaf, s);
 }
 
 void find_moves(const engine::Context& context, SelfContact& s) {
@@ -163,8 +163,7 @@ bool any_pressed(const SelfContact& s) {
   return std::ranges::any_of(s.tasks, [](const PairTask& task) { return !task.pressed.empty(); });
 }
 
-// Sets guards for particles that sank into the body since contact with it was resolved; returns whether there
-// are any.
+// Sets guards for particles that sank into the body since its contact; returns whether any did.
 bool guard_moved_particles(const engine::Context& context, const ResolvedBody& body, SelfContact& s) {
   s.moved.clear();
   for (Index i = 0; i < s.now.size(); ++i) {
@@ -234,11 +233,12 @@ SelfContact make_self_contact(const geometry::TriMesh& mesh, const Particles& p,
   s.tasks = make_pair_tasks(s.mesh);
   s.zones = make_zones(p.count());
   s.loose = make_loose(p.count());
-  s.moves.resize(s.mesh.leaves()), s.off_m.resize(s.mesh.leaves()), s.folded.resize(s.mesh.leaves());
+  s.moves.resize(s.mesh.leaves()), s.deviation_m.resize(s.mesh.leaves()), s.folded.resize(s.mesh.leaves());
   s.moved_leaves = make_moved_leaves(s.mesh, s.tasks.size());
   s.strayed = make_strayed_leaves(p.count(), s.mesh);
-  s.moved.reserve(p.count()), s.beyond_m.resize(p.count()), s.off2.resize(p.count());
-  for (auto* points : {&s.rest, &s.before, &s.now, &s.found, &s.ahead, &s.drift}) points->resize(p.count());
+  s.moved.reserve(p.count()), s.allowance_m.resize(p.count()), s.deviation2.resize(p.count());
+  for (auto* points : {&s.rest, &s.before, &s.now, &s.search_start, &s.expected_move, &s.drift})
+    points->resize(p.count());
   for (std::size_t i = 0; i < p.count(); ++i) s.rest[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
   return s;
 }

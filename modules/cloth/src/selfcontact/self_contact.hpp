@@ -40,21 +40,22 @@ struct SelfContact {
   MovedLeaves moved_leaves;        ///< leaves with particles that moved since crossings were last counted
   std::vector<Index> moved;        ///< particles that were moved after contact with the body
   /// #P: positions at the last search, and the displacements that it expects.
-  std::vector<Point> found, ahead;
+  std::vector<Point> search_start, expected_move;
   /// #P: a particle's allowance: the deviation it may have beyond that of all others.
-  std::vector<float> beyond_m;
+  std::vector<float> allowance_m;
   StrayedLeaves strayed;
   std::vector<Point> drift;          ///< #P: smoothed velocities, meters a second
   std::vector<LeafMove> moves;       ///< #leaves
-  std::vector<float> off2;           ///< #P: squared deviations of particles from their expected paths
-  std::vector<float> off_m;          ///< #leaves: the largest deviation of its particles
+  std::vector<float> deviation2;     ///< #P: squared deviations of particles from their expected paths
+  std::vector<float> deviation_m;    ///< #leaves: the largest deviation of its particles
   std::vector<std::uint8_t> folded;  ///< as PairSearch::folded, when the substep began
   Zones zones;
-  float ahead_s = 0.0f, since_s = 0.0f;  ///< time that the expected displacements take; time since the search
-  Vec3 origin = Vec3::Zero();            ///< origin of the particles' local frame at the last search
-  bool searched = false;                 ///< whether the lists of the last search may still be used
-  bool tree_has_sweeps = false;          ///< whether the tree still has the sweeps of that search
-  bool crossings_known = false;          ///< whether `tangles` has all triangles that cross
+  /// Time that the expected displacements take; time since the search.
+  float expected_s = 0.0f, since_s = 0.0f;
+  Vec3 origin = Vec3::Zero();    ///< origin of the particles' local frame at the last search
+  bool searched = false;         ///< whether the lists of the last search may still be used
+  bool tree_has_sweeps = false;  ///< whether the tree still has the sweeps of that search
+  bool crossings_known = false;  ///< whether `tangles` has all triangles that cross
   /// Number of substeps in this frame in which layers crossed although cloth came nearer to the body.
   int failed_yields = 0;
   SelfContactReport report;  ///< of this frame

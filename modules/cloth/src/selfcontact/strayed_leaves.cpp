@@ -14,17 +14,17 @@ namespace {
 constexpr std::size_t kFewStrayed = 200;
 // The largest allowance of one particle, in spare distances. Beyond it, a search with a path from its present
 // position gives fewer groups.
-constexpr float kMostBeyond = 4.0f;
+constexpr float kMostAllowance = 4.0f;
 // The number of groups for which memory is reserved, for each leaf.
 constexpr std::size_t kWantedALeaf = 2;
 
 // Lists the particles that strayed; returns whether these are few.
-bool list_strayed_particles(const Expectation& expected, std::span<const float> off2,
+bool list_strayed_particles(const Expectation& expected, std::span<const float> deviation2,
                             std::vector<Index>& particles) {
   particles.clear();
-  for (Index i = 0; i < off2.size(); ++i) {
-    if (expected.allows(off2[i], i)) continue;
-    if (particles.size() * kFewStrayed >= off2.size()) return false;
+  for (Index i = 0; i < deviation2.size(); ++i) {
+    if (expected.allows(deviation2[i], i)) continue;
+    if (particles.size() * kFewStrayed >= deviation2.size()) return false;
     particles.push_back(i);
   }
   return true;
@@ -89,15 +89,15 @@ StrayedLeaves make_strayed_leaves(std::size_t particles, const ContactMesh& mesh
 bool list_groups_of_strayed(float since_s, float most_m, SelfContact& self) {
   StrayedLeaves& s = self.strayed;
   const Expectation expected(since_s, most_m, self);
-  if (!self.tree_has_sweeps || !list_strayed_particles(expected, self.off2, s.particles)) return false;
+  if (!self.tree_has_sweeps || !list_strayed_particles(expected, self.deviation2, s.particles)) return false;
   // Allowances are whole spare distances, because a particle that strayed may soon stray a little farther.
   for (const Index i : s.particles) {
-    const float beyond_m = std::sqrt(self.off2[i]) - most_m;
-    if (!(beyond_m <= kMostBeyond * self.spare_m)) return false;
-    self.beyond_m[i] = self.spare_m * std::ceil(beyond_m / self.spare_m);
+    const float excess_m = std::sqrt(self.deviation2[i]) - most_m;
+    if (!(excess_m <= kMostAllowance * self.spare_m)) return false;
+    self.allowance_m[i] = self.spare_m * std::ceil(excess_m / self.spare_m);
   }
   find_leaves(self.mesh, s);
-  const SweptPoints points{self.found, self.ahead, self.beyond_m};
+  const SweptPoints points{self.search_start, self.expected_move, self.allowance_m};
   for (const std::uint32_t leaf : s.leaves) refit_leaf(self.mesh, leaf, points, self.tree);
   list_missing_groups(self.tree, self.gap_m + self.spare_m, self.tasks, s);
   for (auto first = s.wanted.begin(); first != s.wanted.end();) {

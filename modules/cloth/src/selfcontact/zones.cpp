@@ -88,13 +88,13 @@ void find_crossing_in(const ContactSource& source, const CrossingSearch& how, Pa
                       PairTask& task) {
   const float step_m = group.step_m = source.step_of(group);
   update_pairs(source, step_m, group, task);
-  if (group.next_m > group.travel_m + step_m) return;
+  if (group.apart_until_m > group.travel_m + step_m) return;
   if (!group.fresh)
     for (std::uint32_t k = group.begin; k < group.end; ++k) task.pairs[k].contact = kNoContact;
   group.fresh = true;
   for (std::uint32_t k = group.begin; k < group.end; ++k) {
     Pair& pair = task.pairs[k];
-    if (pair.until_m > group.travel_m + step_m) continue;
+    if (pair.apart_until_m > group.travel_m + step_m) continue;
     if (are_loose(pair.particle, pair.edges, source.loose)) continue;
     const PairContact& contact = known_contact(source, group, pair, task);
     if (!(contact.gap_m > 0.0f) || step_m < contact.apart_m - least_distance(contact)) continue;
@@ -177,7 +177,7 @@ std::size_t find_crossing(const engine::Context& context, const ContactSource& s
     PairTask& task = tasks[t];
     task.crossing.clear(), task.held.clear(), task.pressed.clear();
     drop_unused_pairs(task), drop_unused_contacts(task);
-    wake_groups(source.mesh, source.off_m, task);
+    wake_groups(source.mesh, source.deviation_m, task);
     for (PairGroup& group : task.groups) find_crossing_in(source, how, group, task);
   });
   return count_all_crossing(tasks);
@@ -192,7 +192,7 @@ std::size_t find_crossing_again(const engine::Context& context, const ContactSou
       PairTask& task = tasks[t];
       // Where cloth is pinched, rounds find the same groups many times.
       drop_unused_pairs(task), drop_unused_contacts(task);
-      wake_groups(source.mesh, source.off_m, task);
+      wake_groups(source.mesh, source.deviation_m, task);
       for (PairGroup& group : task.groups)
         if (moved.has_moved(group)) find_crossing_in(source, how, group, task);
     }

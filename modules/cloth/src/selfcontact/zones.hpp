@@ -17,14 +17,16 @@ namespace bodice::inline v0_1::cloth {
 
 /// The zones of a substep.
 struct Zones {
-  std::vector<Index> parent;    ///< #P: union-find over zones; kNoIndex for a particle of no zone
-  std::vector<Index> members;   ///< the particles of all zones
-  std::vector<Float4> moved;    ///< #P: at a zone's root: the displacement of the zone, in the end
-  std::vector<Point> wanted;    ///< for each of `members`: its displacement before it joined a zone
+  std::vector<Index> parent;   ///< #P: union-find over zones; kNoIndex for a particle of no zone
+  std::vector<Index> members;  ///< the particles of all zones
+  std::vector<Float4> moved;  ///< #P: at a zone's root: sums of mass times displacement and of mass, then the
+                              ///< zone's displacement
+  std::vector<Point> wanted;  ///< for each of `members`: its displacement before it joined a zone
   std::vector<Point> resolved;  ///< #P: positions to which contact with the body moved the particles
   std::vector<Guard> guard;     ///< #P: guards that keep particles from sinking into the body from `resolved`
 };
 
+/// The state for this number of particles, without zones.
 Zones make_zones(std::size_t particles);
 
 /// The condition under which a pair may cross. With ample room it may only if none of its particles can be
@@ -40,8 +42,8 @@ struct CrossingSearch {
   Room room = Room::kAmple;
 };
 
-/// Lists in each task the pairs that would cross on their paths (`crossing`), and those of them that may
-/// (`pressed`). Returns the number of pairs in `crossing`.
+/// Lists in each task the pairs that would cross on their paths: those that may cross in `pressed`, all
+/// others in `crossing`. Returns the number of pairs in `crossing`.
 std::size_t find_crossing(const engine::Context& context, const ContactSource& source,
                           const CrossingSearch& how, std::vector<PairTask>& tasks);
 
