@@ -23,15 +23,15 @@ TEST_CASE("a thin copy's doubt about the crown stays unless the skin has the sam
     return std::ranges::count(found.warnings, "crown-disagrees", &engine::Warning::code);
   };
   anatomy::Anatomy apart = doubted;
-  anatomy::judge_crown(clean, apart);
+  anatomy::drop_crown_doubts(clean, apart);
   CHECK(doubts(apart) == 0);
   CHECK(apart.landmarks[kCrown].confidence == clean.landmarks[kCrown].confidence);
   apart = doubted;
-  anatomy::judge_crown(doubted, apart);
+  anatomy::drop_crown_doubts(doubted, apart);
   CHECK(doubts(apart) == 1);
   apart = doubted;
   apart.landmarks[kCrown].position += 0.03 * apart.stature_m * apart.up;
-  anatomy::judge_crown(clean, apart);
+  anatomy::drop_crown_doubts(clean, apart);
   CHECK(doubts(apart) == 1);
   CHECK(apart.landmarks[kCrown].confidence == 0.1);
 }

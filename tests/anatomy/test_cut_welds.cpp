@@ -149,8 +149,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "limbs are parted up to where the others let expect their folds, and a stride makes no body taller") {
+TEST_CASE("limbs are cut apart up to the predicted folds, and a stride makes no body taller") {
   for (const std::uint64_t seed : {131000u, 131001u, 131005u}) {
     CAPTURE(seed);
     const auto scan = synth::make_scan({}, synth::ScanKind::kClosed, seed);

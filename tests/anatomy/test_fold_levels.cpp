@@ -1,4 +1,4 @@
-// Armpits and crotch where limbs let expect them: whole bodies pass, folds that are far off do not.
+// Armpits and crotch against the positions that limbs predict: whole bodies pass, displaced folds do not.
 #include <doctest/doctest.h>
 
 #include <bodice/synth/body.hpp>

@@ -25,7 +25,7 @@ using engine::StageTimer;
 using engine::Warning;
 using geometry::Vec3;
 
-/// The Mahalanobis distance above which the five extremities do not lie as a body's do.
+/// The largest Mahalanobis distance of five extremities that count as those of a body.
 constexpr double kWorstDistance = 3.0;
 
 Error no_body(const std::string& why) {
@@ -39,7 +39,7 @@ Vec3 upwards(const Skin& skin, const Landmarks& marks, geometry::Index perineum)
   return length > 0.0 ? Vec3(up / length) : Vec3(Vec3::UnitY());
 }
 
-/// The analysis of a skin as it is. `anatomy` brings the stages so far.
+/// Analyzes a skin without changing it. `anatomy` has the stages so far.
 engine::Result<Anatomy> analyze_skin(const engine::Context& context, const Skin& skin, const Options& options,
                                      Anatomy anatomy) {
   StageTimer geodesic_timer(context, anatomy.stages, "geodesic");
@@ -68,15 +68,16 @@ engine::Result<Anatomy> analyze_skin(const engine::Context& context, const Skin&
   return anatomy;
 }
 
-/// Back from a skin with more vertices, `origin` of each of them, to the one that was given.
-void forget_added(const std::vector<geometry::Index>& origin, std::size_t vertices, Anatomy& anatomy) {
+/// Removes the vertices that were added to a skin from its result. `origin` has the original vertex of each
+/// added one.
+void remove_added(const std::vector<geometry::Index>& origin, std::size_t vertices, Anatomy& anatomy) {
   anatomy.part.resize(vertices);
   for (body::Landmark& mark : anatomy.landmarks)
     if (mark.vertex != geometry::kNoIndex && mark.vertex >= vertices)
       mark.vertex = origin[mark.vertex - vertices];
 }
 
-/// Coarse skins are analyzed with finer triangles of the same surface.
+/// Analyzes a skin. A coarse one is analyzed with finer triangles of the same surface.
 engine::Result<Anatomy> analyze_fine_enough(const engine::Context& context, const Skin& skin,
                                             const Options& options, Anatomy anatomy) {
   const std::size_t vertices = skin.mesh.positions.size();
@@ -88,7 +89,7 @@ engine::Result<Anatomy> analyze_fine_enough(const engine::Context& context, cons
   fine.open_edges = skin.open_edges;
   finer_timer.stop();
   auto result = analyze_skin(context, fine, options, std::move(anatomy));
-  if (result.ok()) forget_added(finer.origin, vertices, *result);
+  if (result.ok()) remove_added(finer.origin, vertices, *result);
   return result;
 }
 
@@ -100,7 +101,7 @@ Warning touches(std::size_t vertices) {
       "Weld less, or move the parts that touch apart.");
 }
 
-/// A skin that touches itself is analyzed with its touching parts taken apart.
+/// Analyzes a skin. One that touches itself is analyzed with its touching parts taken apart.
 engine::Result<Anatomy> analyze_apart(const engine::Context& context, const Skin& skin,
                                       const Options& options, Anatomy anatomy) {
   SplitSkin split;
@@ -109,12 +110,13 @@ engine::Result<Anatomy> analyze_apart(const engine::Context& context, const Skin
   const Skin apart = make_skin(context, split.mesh);
   auto result = analyze_fine_enough(context, apart, options, std::move(anatomy));
   if (!result.ok()) return result;
-  forget_added(split.origin, skin.mesh.positions.size(), *result);
+  remove_added(split.origin, skin.mesh.positions.size(), *result);
   result->warnings.push_back(touches(split.origin.size()));
   return result;
 }
 
-/// The tips of fins are no extremities, and paths along them lead across the body. All vertices stay.
+/// The mesh without the triangles of fins; all vertices stay. Tips of fins are no extremities, and paths
+/// along fins lead across the body.
 geometry::TriMesh without_fins(const geometry::TriMesh& mesh) {
   const std::vector<bool> fin = geometry::find_fins(mesh, geometry::mesh_edges(mesh));
   geometry::TriMesh kept{mesh.positions, {}};
@@ -123,7 +125,7 @@ geometry::TriMesh without_fins(const geometry::TriMesh& mesh) {
   return kept;
 }
 
-/// The last gate: what the analysis found may fit no human body.
+/// The result, or an error if it fits no human body and `force` is not set.
 engine::Result<Anatomy> checked(const geometry::TriMesh& mesh, engine::Result<Anatomy> found, bool force) {
   if (!found) return found;
   const std::vector<std::string> clauses = contradictions(mesh, *found);

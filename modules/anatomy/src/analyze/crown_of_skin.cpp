@@ -7,7 +7,7 @@ namespace {
 
 using body::LandmarkId;
 
-/// A crown that moves by less than this share of the stature is the same one.
+/// Two crowns count as the same if they are nearer than this fraction of the stature.
 constexpr double kSameCrown = 0.02;
 
 bool is_of_crown(const engine::Warning& w) {
@@ -16,7 +16,7 @@ bool is_of_crown(const engine::Warning& w) {
 
 }  // namespace
 
-void judge_crown(const Anatomy& as_is, Anatomy& apart) {
+void drop_crown_doubts(const Anatomy& as_is, Anatomy& apart) {
   constexpr auto kCrown = static_cast<std::size_t>(LandmarkId::kCrown);
   body::Landmark& crown = apart.landmarks[kCrown];
   const body::Landmark& given = as_is.landmarks[kCrown];

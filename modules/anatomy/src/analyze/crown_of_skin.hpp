@@ -7,6 +7,6 @@ namespace bodice::inline v0_1::anatomy {
 
 /// Removes the warnings about the crown from `apart`, the result on a thin copy, if the skin itself has the
 /// same crown without a warning. A thin copy has no ears, by which the length of a head is tested.
-void judge_crown(const Anatomy& as_is, Anatomy& apart);
+void drop_crown_doubts(const Anatomy& as_is, Anatomy& apart);
 
 }  // namespace bodice::anatomy

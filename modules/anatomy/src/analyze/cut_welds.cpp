@@ -31,20 +31,18 @@ using geometry::Vec3;
 /// arms are measured, and suffices where limbs are joined by webs alone. Where limbs are not apart at one
 /// depth, they may be at the next.
 constexpr std::array kDepths = {0.0012, 0.0053, 0.0082};
-/// The shares of the limbs' depth that a neck between limbs may have, for walls where no depth parts the
-/// limbs.
+/// The shares of the limbs' depth that a neck between limbs may have, where walls are needed.
 constexpr std::array kNecks = {0.92, 0.95, 0.88};
-/// Walls need no deep copy: so many of the depths are tried with them.
+/// The number of depths that are tried with walls, which need no deep copy.
 constexpr std::size_t kWalledDepths = 2;
-/// Area to squared length of a body is below this: .55 to .85, of a heavy one .9.
+/// The largest ratio of a body's area to its squared length. Bodies have 0.55 to 0.85, a heavy one 0.9.
 constexpr double kMostArea = 1.0;
 
 /// The most passes over one copy; each cuts the webs that the one before revealed.
 constexpr int kPasses = 3;
-/// How often folds are moved to the positions that limbs and trunk predict, which then are more accurate
-/// themselves.
-constexpr int kSettling = 2;
-/// How far a landmark may lie below the fold up to which limbs were parted; of the stature.
+/// How often folds are moved to their predicted positions; each time the prediction is more accurate.
+constexpr int kMostMoves = 2;
+/// The largest distance of a landmark below the fold up to which limbs were cut, in statures.
 constexpr double kBelowFold = 0.025;
 
 /// The folds of a copy kMuchDeeper times as deep as the first lie too high: less than usual is doubtful.
@@ -53,10 +51,10 @@ constexpr double kMuchDeeper = 2.0, kDeepMisfit = 0.6;
 /// The least product of the confidences of armpits and crotch that counts as evidence for them. Scans with
 /// correct folds have 0.64 or more, and those with a wrong one 0.33 or less.
 constexpr double kFoldsFit = 0.6;
-/// A stature that changes by less than this share is the same one.
+/// Two statures count as equal if they differ by less than this share.
 constexpr double kSameStature = 0.015;
 
-/// A body with welded limbs, and how it is analyzed.
+/// A body with welded limbs, and the means to analyze it.
 struct WeldedBody {
   const engine::Context& context;
   const TriMesh& mesh;
@@ -106,23 +104,23 @@ bool is_sure(const engine::Result<Anatomy>& as_is, const Anatomy& apart, const T
 }
 
 /// A thin copy on which limbs are apart, and the result on it.
-struct Parted {
+struct SeparatedCopy {
   ThinCopy thin;
   Anatomy found;
   std::vector<Web> left;  ///< webs that are left after the cuts
 };
 
-/// What a copy of the body, walled as it is now, shows when its limbs have come apart.
-std::optional<Parted> look(const WeldedBody& body, double depth) {
+/// Analyzes a copy with its present walls. Empty if limbs are not apart on it, or it is no human body.
+std::optional<SeparatedCopy> analyze_copy(const WeldedBody& body, double depth) {
   auto thin = body.skin.thin_copy(body.context, depth);
   if (!thin) return std::nullopt;
   auto found = body.analyze(body.context, thin->mesh, body.options);
   if (!found || limbs_meet(*found) || !contradictions(thin->mesh, *found).empty()) return std::nullopt;
   std::vector<Web> left = find_webs(body.context, thin->mesh, *found);
-  return Parted{std::move(*thin), std::move(*found), std::move(left)};
+  return SeparatedCopy{std::move(*thin), std::move(*found), std::move(left)};
 }
 
-/// Webs become folds, each in place of the one that was there.
+/// Adds webs as folds, which replace earlier folds of the same landmarks.
 void add_folds(const std::vector<Web>& webs, std::vector<Fold>& folds) {
   for (const Web& web : webs) {
     std::erase_if(folds, [&](const Fold& fold) { return fold.id == web.id; });
@@ -134,11 +132,11 @@ bool is_cut(LandmarkId armpit, const std::vector<Fold>& folds) {
   return armpit != LandmarkId::kPerineum && std::ranges::find(folds, armpit, &Fold::id) != folds.end();
 }
 
-int in_doubt(const Parted& parted) {
-  return doubts(parted.found) + static_cast<int>(parted.left.size());
+int count_doubts(const SeparatedCopy& copy) {
+  return doubts(copy.found) + static_cast<int>(copy.left.size());
 }
 
-/// Whether landmarks lie at the folds: below a wall with a gap they do not.
+/// Whether landmarks lie at the folds. They lie lower where a wall has a gap.
 bool reaches(const Anatomy& found, const std::vector<Fold>& folds) {
   return std::ranges::all_of(folds, [&](const Fold& fold) {
     const Vec3& mark = found.landmarks[static_cast<std::size_t>(fold.id)].position;
@@ -146,25 +144,26 @@ bool reaches(const Anatomy& found, const std::vector<Fold>& folds) {
   });
 }
 
-/// Parts limbs that are known roughly. What a web hides may be one more, so that each cut is followed by
-/// another look, as long as that leaves less in doubt.
-std::optional<Parted> part_known(const WeldedBody& body, const Anatomy& rough, std::vector<Fold> folds) {
-  std::optional<Parted> best;
+/// Cuts limbs apart that are known roughly. A web may hide another web, so that each cut is followed by
+/// another analysis, as long as the number of doubts falls.
+std::optional<SeparatedCopy> separate_known(const WeldedBody& body, const Anatomy& rough,
+                                            std::vector<Fold> folds) {
+  std::optional<SeparatedCopy> best;
   for (int pass = 1; pass <= kPasses; ++pass) {
     body.skin.wall_known_limbs(body.context, body.distance, best ? best->found : rough, folds);
-    auto parted = look(body, kDepths.front());
-    // An arm that a wall runs along shows a web whether there is one or not.
-    if (parted) std::erase_if(parted->left, [&](const Web& web) { return is_cut(web.id, folds); });
-    if (!parted || !reaches(parted->found, folds) || (best && in_doubt(*parted) >= in_doubt(*best)))
+    auto copy = analyze_copy(body, kDepths.front());
+    // An arm beside a wall seems to have a web in any case.
+    if (copy) std::erase_if(copy->left, [&](const Web& web) { return is_cut(web.id, folds); });
+    if (!copy || !reaches(copy->found, folds) || (best && count_doubts(*copy) >= count_doubts(*best)))
       return best;
-    best = std::move(parted);
+    best = std::move(copy);
     if (best->left.empty()) return best;
     add_folds(best->left, folds);
   }
   return best;
 }
 
-/// Landmarks that webs lead astray are no longer trusted.
+/// Warns of landmarks that webs have displaced, and lowers their confidence.
 void doubt(const std::vector<Web>& webs, Anatomy& anatomy) {
   for (const Web& web : webs)
     doubt_fold(*std::ranges::find(kNamedFolds, web.id, &NamedFold::id),
@@ -172,41 +171,41 @@ void doubt(const std::vector<Web>& webs, Anatomy& anatomy) {
                " has none.", anatomy);
 }
 
-/// What is found on a copy, carried out to the skin.
-Anatomy carried(const WeldedBody& body, const Parted& parted, const engine::Result<Anatomy>& as_is,
-                bool webs_only) {
-  Anatomy apart = carry_out(body.context, parted.thin, parted.found, body.mesh);
+/// Transfers the result on a copy to the skin, with warnings.
+Anatomy transferred(const WeldedBody& body, const SeparatedCopy& copy, const engine::Result<Anatomy>& as_is,
+                    bool webs_only) {
+  Anatomy apart = carry_out(body.context, copy.thin, copy.found, body.mesh);
   const std::string where = as_is ? hidden_folds(*as_is, apart) : "";
-  doubt(parted.left, apart);
-  if (as_is) judge_crown(*as_is, apart);
+  doubt(copy.left, apart);
+  if (as_is) drop_crown_doubts(*as_is, apart);
   if (as_is) apart.stages = as_is->stages;
-  warn(where, parted.thin, is_sure(as_is, apart, parted.thin, webs_only), apart);
+  warn(where, copy.thin, is_sure(as_is, apart, copy.thin, webs_only), apart);
   return apart;
 }
 
-/// A deep copy has lost fingers, and its folds lie too high. Once it shows how the limbs lie, they are parted
-/// by walls in a copy that is hardly thinner than the body.
+/// Refines the result on a deep copy, which has no fingers and too high folds, by a shallow copy with walls.
 Anatomy refined(const WeldedBody& body, Anatomy rough, const std::vector<Web>& seen,
                 const engine::Result<Anatomy>& as_is) {
   std::vector<Fold> folds = find_folds(body.context, body.mesh, rough);
   std::vector<Web> armpits = seen;
   std::erase_if(armpits, [](const Web& web) { return web.id == LandmarkId::kPerineum; });
   add_folds(armpits, folds);
-  const auto parted = part_known(body, rough, std::move(folds));
-  if (!parted) return rough;
-  Anatomy fine = carried(body, *parted, as_is, false);
+  const auto copy = separate_known(body, rough, std::move(folds));
+  if (!copy) return rough;
+  Anatomy fine = transferred(body, *copy, as_is, false);
   return doubts_but_handles(fine) > doubts_but_handles(rough) ? rough : fine;
 }
 
-/// Limbs that were parted up to folds which limbs and trunk contradict are parted up to where these let
-/// expect them, if that agrees better.
-Anatomy settled(const WeldedBody& body, Anatomy apart, const engine::Result<Anatomy>& as_is, bool webs_only) {
-  for (int pass = 1; pass <= kSettling; ++pass) {
+/// Moves folds that do not fit limbs and trunk to the predicted positions, and cuts limbs apart up to these.
+/// Keeps the better result.
+Anatomy with_predicted_folds(const WeldedBody& body, Anatomy apart, const engine::Result<Anatomy>& as_is,
+                             bool webs_only) {
+  for (int pass = 1; pass <= kMostMoves; ++pass) {
     std::vector<Fold> folds = expected_folds(body.context, body.mesh, apart);
     if (folds.empty()) return apart;
-    const auto parted = part_known(body, apart, std::move(folds));
-    if (!parted) return apart;
-    Anatomy next = carried(body, *parted, as_is, webs_only);
+    const auto copy = separate_known(body, apart, std::move(folds));
+    if (!copy) return apart;
+    Anatomy next = transferred(body, *copy, as_is, webs_only);
     if (doubts(next) > doubts(apart) || fold_misfit(next.landmarks) >= fold_misfit(apart.landmarks))
       return apart;
     apart = std::move(next);
@@ -214,13 +213,13 @@ Anatomy settled(const WeldedBody& body, Anatomy apart, const engine::Result<Anat
   return apart;
 }
 
-/// What a copy of this depth shows, where that leaves no more in doubt than the skin as it is.
-std::optional<Anatomy> apart_at(const WeldedBody& body, double depth, const std::vector<Web>& seen,
-                                const engine::Result<Anatomy>& as_is) {
-  const auto parted = look(body, depth);
-  if (!parted || shows_welds(parted->found)) return std::nullopt;
-  const Anatomy first = refined(body, carried(body, *parted, as_is, false), seen, as_is);
-  Anatomy apart = settled(body, first, as_is, false);
+/// The result on a copy of this depth; empty if it has more doubts than the result on the skin itself.
+std::optional<Anatomy> apart_at_depth(const WeldedBody& body, double depth, const std::vector<Web>& seen,
+                                      const engine::Result<Anatomy>& as_is) {
+  const auto copy = analyze_copy(body, depth);
+  if (!copy || shows_welds(copy->found)) return std::nullopt;
+  const Anatomy first = refined(body, transferred(body, *copy, as_is, false), seen, as_is);
+  Anatomy apart = with_predicted_folds(body, first, as_is, false);
   if (as_is && doubts(apart) > doubts(*as_is) + static_cast<int>(seen.size())) return std::nullopt;
   doubt_moved_folds(first, apart);
   return apart;
@@ -230,23 +229,23 @@ std::optional<Anatomy> webs_apart(const WeldedBody& body, const std::vector<Web>
                                   const engine::Result<Anatomy>& as_is) {
   std::vector<Fold> folds;
   add_folds(seen, folds);
-  const auto parted = part_known(body, *as_is, std::move(folds));
-  if (!parted) return std::nullopt;
-  const Anatomy first = carried(body, *parted, as_is, true);
-  Anatomy apart = settled(body, first, as_is, true);
+  const auto copy = separate_known(body, *as_is, std::move(folds));
+  if (!copy) return std::nullopt;
+  const Anatomy first = transferred(body, *copy, as_is, true);
+  Anatomy apart = with_predicted_folds(body, first, as_is, true);
   if (doubts(apart) > doubts(*as_is) + static_cast<int>(seen.size())) return std::nullopt;
   doubt_moved_folds(first, apart);
   return apart;
 }
 
-/// A skin with so much area for its length is that of two bodies, or has a floor in it.
-bool is_of_two(const TriMesh& mesh) {
+/// Whether the skin has too much area for its length, because it has two bodies or a floor.
+bool has_too_much_area(const TriMesh& mesh) {
   const double length = geometry::bounding_box(mesh.positions).size().maxCoeff();
   return geometry::surface_area(mesh) > kMostArea * length * length;
 }
 
-/// Keeps the cut with armpits and crotch nearest to where the limbs let expect them, and no more in doubt.
-/// Returns whether it has them where whole bodies have.
+/// Keeps the result with armpits and crotch nearest to their predicted positions, if it has no more doubts.
+/// Returns whether they are as near as on whole bodies.
 bool keep_better(std::optional<Anatomy> apart, std::optional<Anatomy>& best) {
   if (!apart) return false;
   const double off = fold_misfit(apart->landmarks);
@@ -261,13 +260,13 @@ std::optional<Anatomy> welds_apart(const WeldedBody& body, const std::vector<Web
   std::optional<Anatomy> best;
   for (const double depth : std::span(kDepths).subspan(1)) {
     body.skin.remove_walls();
-    if (keep_better(apart_at(body, depth, seen, as_is), best)) return best;
+    if (keep_better(apart_at_depth(body, depth, seen, as_is), best)) return best;
   }
-  if (!is_welded(as_is) || is_of_two(body.mesh)) return best;
+  if (!is_welded(as_is) || has_too_much_area(body.mesh)) return best;
   for (const double neck : std::span(kNecks).first(best ? 1 : kNecks.size()))
     for (const double depth : std::span(kDepths).first(kWalledDepths)) {
       body.skin.wall_limbs(body.context, body.distance, neck);
-      if (keep_better(apart_at(body, depth, seen, as_is), best)) return best;
+      if (keep_better(apart_at_depth(body, depth, seen, as_is), best)) return best;
     }
   return best;
 }

@@ -13,8 +13,8 @@
 namespace bodice::inline v0_1::anatomy {
 namespace {
 
-/// Folds that were so many times as far off as is doubtful stay in doubt. Of scans that were moved, nine that
-/// were right then had 1.0 to 1.44, and two that were still wrong 1.6 and 1.8.
+/// A fold with an error above this multiple of the doubtful one stays in doubt after it was moved. In scans
+/// with moved folds, nine that were right then had 1.0 to 1.44, and two that were still wrong 1.6 and 1.8.
 constexpr double kFarOff = 1.5;
 
 double doubtful(body::LandmarkId id) {
@@ -48,7 +48,7 @@ void doubt_moved_folds(const Anatomy& before, Anatomy& after) {
     const double most = doubtful(kNamedFolds[i].id);
     if (std::abs((*was)[i]) <= kFarOff * most || std::abs((*is)[i]) > most) continue;
     doubt_fold(kNamedFolds[i],
-               "where limbs and trunk let expect it, and was found " +
+               "where limbs and trunk predict it, and was found " +
                    std::to_string(std::lround(1e3 * std::abs((*was)[i]))) +
                    " thousandths of the stature off.",
                ", seen from all sides, shows it.", after);

@@ -7,8 +7,8 @@ namespace {
 
 using geometry::Vec3;
 
-/// A web hides an armpit or the crotch where the thin copy has it higher by this much of the stature; without
-/// webs it is .003.
+/// A web hides an armpit or the crotch if that is higher on the thin copy by this fraction of the stature.
+/// Without webs the difference is 0.003.
 constexpr double kHidden = 0.01;
 
 }  // namespace

@@ -10,14 +10,15 @@
 namespace bodice::inline v0_1::anatomy {
 namespace {
 
-/// Limbs and trunk are no evidence below this, a deviation of whole bodies; the room is not measured then.
+/// The least error by limbs and trunk that counts as evidence, a deviation of whole bodies. With less, the
+/// room is not measured.
 constexpr double kLeastBelow = 0.01;
-/// Both kinds of evidence together: more than this is hardly seen on whole bodies.
+/// The largest sum of both kinds of evidence on almost all whole bodies.
 constexpr double kTogether = 0.02;
-/// The room shows the fold of a whole body so far below its armpit.
+/// How far the room inside a whole body has the fold below its armpit.
 constexpr double kRoomBelow = 0.01;
 
-bool in_doubt(const Anatomy& anatomy, const NamedFold& fold) {
+bool has_warning(const Anatomy& anatomy, const NamedFold& fold) {
   return std::ranges::any_of(anatomy.warnings, [&](const engine::Warning& w) {
     return w.code == fold.code && w.part == body::name(fold.part);
   });
@@ -43,11 +44,11 @@ void doubt_low_armpits(const engine::Context& context, const geometry::TriMesh& 
   const std::array<double, 2> up = armpits_too_low(context, skin, anatomy);
   for (std::size_t side = 0; side < up.size(); ++side) {
     const NamedFold& fold = kNamedFolds[side];
-    if (!(up[side] > 0.0) || in_doubt(anatomy, fold)) continue;
+    if (!(up[side] > 0.0) || has_warning(anatomy, fold)) continue;
     doubt_fold(
         fold,
         std::to_string(std::lround(1e3 * up[side])) +
-            " thousandths of the stature lower than limbs, trunk and the room inside the body let expect.",
+            " thousandths of the stature lower than limbs, trunk and the room inside the body predict.",
         ", seen from all sides, shows it.", anatomy);
   }
 }

@@ -24,16 +24,17 @@ using geometry::MeshDistance;
 using geometry::TriMesh;
 using geometry::Vec3;
 
-/// Cells along a body's height, which follows from its area: .63 of the squared height in any pose.
+/// Cells along a body's height. The height follows from the area, which is 0.63 of the squared height in any
+/// pose.
 constexpr double kCells = 215.0, kAreaOfHeight = 0.63;
-/// Nodes of the grid: a body in a T pose has two million.
+/// The most nodes of the grid; a body in a T pose has two million.
 constexpr double kMostNodes = 6e6;
-/// Skin within this multiple of the depth, and a cell, lies right above the copy.
+/// Skin within this multiple of the depth, plus a cell, counts as right above the copy.
 constexpr double kAbove = 1.25;
-/// How much a vertex beside the line from a limb's joint to its tip counts against it as the tip.
+/// The penalty of a candidate for a limb's tip, as a share of its distance from the line through the joint.
 constexpr double kBeside = 0.5;
 
-/// The part of the copy's skin right below each vertex, where there is one.
+/// The part of the copy right below each vertex of the skin; empty where the copy is not right below.
 std::vector<std::optional<body::Part>> parts_below(const ThinCopy& thin, const MeshDistance& distance,
                                                    const Anatomy& found, const TriMesh& skin) {
   std::vector<std::optional<body::Part>> parts(skin.positions.size());
@@ -50,7 +51,7 @@ std::vector<std::optional<body::Part>> parts_below(const ThinCopy& thin, const M
   return parts;
 }
 
-/// Each vertex without a part takes that of the nearest one along the skin.
+/// Gives each vertex without a part that of the nearest vertex with one, along the skin.
 std::vector<body::Part> spread(const TriMesh& skin, const std::vector<std::optional<body::Part>>& known) {
   const geometry::MeshEdges edges = geometry::mesh_edges(skin);
   std::vector<std::vector<Index>> neighbors(skin.positions.size());
@@ -59,7 +60,8 @@ std::vector<body::Part> spread(const TriMesh& skin, const std::vector<std::optio
     double distance;
     Index vertex;
     body::Part part;
-    bool operator<(const Front& other) const {  // the nearest comes first, of equals the first vertex
+    bool operator<(
+        const Front& other) const {  // the nearest comes first; among equals the vertex with the lower index
       return distance != other.distance ? distance > other.distance : vertex > other.vertex;
     }
   };
@@ -82,7 +84,7 @@ std::vector<body::Part> spread(const TriMesh& skin, const std::vector<std::optio
   return parts;
 }
 
-/// The vertex of a part that lies farthest along a direction from a point.
+/// The vertex of a part that is farthest from a point in the direction of another point.
 Index end_of(const TriMesh& skin, const std::vector<body::Part>& parts, body::Part part, const Vec3& from,
              const Vec3& toward) {
   const Vec3 direction = (toward - from).normalized();

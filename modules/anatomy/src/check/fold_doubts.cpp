@@ -78,7 +78,7 @@ void doubt_folds(const Options& options, Anatomy& anatomy) {
     if (std::abs(off) <= most) continue;
     doubt_fold(fold,
                std::to_string(std::lround(1e3 * std::abs(off))) + " thousandths of the stature " +
-                   (off > 0.0 ? "lower" : "higher") + " than limbs and trunk let expect.",
+                   (off > 0.0 ? "lower" : "higher") + " than limbs and trunk predict.",
                ", seen from all sides, shows it.", anatomy);
   }
 }

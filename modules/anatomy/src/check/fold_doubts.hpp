@@ -5,9 +5,9 @@
 
 namespace bodice::inline v0_1::anatomy {
 
-/// Warns of folds that lie far from where the other landmarks let expect them, and lowers their confidence.
-/// Skins that were neither cut nor closed are doubted where armpits are farther off still, or both too low
-/// and unlike folds. Of skins that were cut, the neck is doubted as well, where it looks unlike one.
+/// Warns of folds far from the positions that other landmarks predict, and lowers their confidence. Skins
+/// that were neither cut nor closed are doubted where armpits are farther off still, or both too low and
+/// unlike folds. Of skins that were cut, the neck is doubted as well, where it looks unlike one.
 void doubt_folds(const Options& options, Anatomy& anatomy);
 
 /// Whether limbs were cut apart.
