@@ -4,7 +4,7 @@
 
 #include <bodice/tryon/prepare.hpp>
 
-/// The built-in body of about so many vertices, in parts.
+/// The built-in body of about this number of vertices, in parts.
 const bodice::tryon::SegmentedSkin& builtin_skin(int vertices);
 
 /// The same with its proxy in a tier.

@@ -202,7 +202,7 @@ TEST_CASE("another clip is reached from the current pose, and an unknown one giv
   const auto missing = session.play({.motion = "nowhere.bvh"}).wait();
   REQUIRE_FALSE(missing.ok());
   CHECK(missing.error().sentence().find("nowhere.bvh") != std::string::npos);
-  CHECK(session.frame(kFrame_s).plays);  // the clip before goes on
+  CHECK(session.frame(kFrame_s).plays);  // the earlier clip plays on
 
   tryon::Session still({}, {.fit = {.tier = proxy::Tier::kSolid}});
   const auto refused = still.play({.motion = "walk"}).wait();

@@ -17,7 +17,7 @@ namespace bodice::inline v0_1::cloth {
 
 static_assert(kPatch % kCluster == 0 && kPatch % kTravelCluster == 0);
 
-/// What happened to a patch of particles since the frame began.
+/// The contacts of a patch of particles since the frame began.
 struct ContactPatch {
   collision::ContactReport report;
   std::int64_t spent_ns = 0;  ///< time inside the collider
@@ -36,8 +36,8 @@ struct ContactState {
   FaceProof proof;
 };
 
-/// The state for so many particles of cloth with this coefficient of friction; `faces` are those of
-/// make_face_contact().
+/// The state for this number of particles of cloth with this coefficient of friction. `faces` is the result
+/// of make_face_contact().
 ContactState make_contacts(std::size_t particles, double friction, FaceContact faces);
 
 /// Begins a frame: finds the body's motion near the particles, their clearances and the samples of faces.
@@ -56,7 +56,7 @@ std::uint32_t resolve_body_contacts(const engine::Context& context, const collis
 void end_contact_frame(const engine::Context& context, const collision::Collider& collider,
                        const SolverOptions& options, ContactState& state, Particles& particles);
 
-/// Adds what happened since begin_contact_frame() to the report.
+/// Adds contacts, proofs and times since begin_contact_frame() to the report.
 void report_contacts(const ContactState& state, FrameReport& report);
 
 }  // namespace bodice::cloth

@@ -26,7 +26,7 @@ struct ClearanceCache {
   int frames_without = 0;                   ///< frames for which queries are still left out
 };
 
-/// The cache for so many particles.
+/// The cache for this number of particles.
 ClearanceCache make_clearance_cache(std::size_t particles);
 
 /// Begins a frame: queries how far each cluster is from a body that stands still. In three cases no cluster

@@ -47,7 +47,7 @@ struct BodyMotion {
   std::vector<Vec3> turns;  ///< #ellipsoids of the body: how each turns in the frame, radians
 };
 
-/// Motion for so many particles of cloth with this coefficient of friction, near a body at rest.
+/// The state for this number of particles of cloth with this coefficient of friction, near a body at rest.
 BodyMotion make_motion(std::size_t particles, double friction);
 
 /// Begin and end of a substep, as fractions of its frame.

@@ -15,7 +15,7 @@
 
 namespace bodice::inline v0_1::cloth {
 
-/// What the proof of a frame needs and finds.
+/// The memory and the results of the proofs of a frame.
 struct FaceCertificate {
   std::vector<std::uint8_t> due;          ///< #runs: whether its triangles are to be proved
   std::vector<std::uint8_t> moved;        ///< #clusters: whether a particle was pushed since its proof

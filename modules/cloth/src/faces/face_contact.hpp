@@ -81,7 +81,7 @@ void push_faces_out(const engine::Context& context, const collision::Collider& b
 /// Ends a substep: copies the points in `now` to the positions (x, y, z) of the particles [begin, end).
 void end_face_substep(std::size_t begin, std::size_t end, const FaceContact& faces, Particles& particles);
 
-/// What happened since the frame began.
+/// The report of the face contacts since the frame began.
 FaceReport report_faces(const FaceContact& faces);
 
 }  // namespace bodice::cloth

@@ -23,7 +23,7 @@ struct Sleep {
   float pull_m = 0.0f;              ///< a particle that contact puts back by more in a substep does not sleep
 };
 
-/// The state for so many particles, all awake.
+/// The state for this number of particles, all awake.
 Sleep make_sleep(std::size_t particles, double median_edge_m);
 
 /// Whether a particle sleeps; constraints cannot move it then.

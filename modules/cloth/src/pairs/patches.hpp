@@ -20,7 +20,7 @@ struct Joints {
   std::vector<bool> turned;  ///< #F: whether the winding is against that of the surface's first triangle
 };
 
-/// Finds what triangles join, and turns each surface consistently where it can be. O(n log n).
+/// Finds which triangles share edges, and a consistent winding for each surface that has one. O(n log n).
 Joints find_joints(const geometry::TriMesh& mesh);
 
 /// Splits triangles into connected patches of at most `most` with the same group; each begins at the first

@@ -23,7 +23,7 @@ void set_lane(SweepQuad& quad, std::size_t lane, const Sweep& sweep) {
   }
 }
 
-// What bounds all lanes.
+// The sweep that bounds all lanes.
 Sweep bounds_of(const SweepQuad& quad) {
   const auto least = [](Float4 v) { return std::min({v[0], v[1], v[2], v[3]}); };
   const auto most = [](Float4 v) { return std::max({v[0], v[1], v[2], v[3]}); };

@@ -84,7 +84,7 @@ struct SelfSubstep {
 void push_apart(const engine::Context& context, const SelfSubstep& substep, SelfContact& self,
                 Particles& particles);
 
-/// What happened since the frame began.
+/// The report of self-contact since the frame began.
 SelfContactReport report_self_contact(const SelfContact& self);
 
 /// Ends a substep: moves particles so that none of their paths in the substep cross, if that is possible. No

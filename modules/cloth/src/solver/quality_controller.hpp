@@ -1,4 +1,4 @@
-// The number of substeps of a frame, and what frames leave out to stay within their budget.
+// The number of substeps of a frame, and the quality that frames drop to stay within their budget.
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,7 @@
 
 namespace bodice::inline v0_1::cloth {
 
-/// What acts on a garment besides the body.
+/// The gravity, wind and air that act on a garment.
 struct Environment {
   geometry::Vec3 gravity_m_s2 = {0.0, -9.81, 0.0};
   geometry::Vec3 wind_m_s = {0.0, 0.0, 0.0};
@@ -58,7 +58,7 @@ struct Tack {
   geometry::Index a = 0, b = 0;
 };
 
-/// What a frame left out or bounded, as bits of FrameReport::limits.
+/// The limits that a frame reached and the work that it dropped, as bits of FrameReport::limits.
 enum FrameLimit : std::uint32_t {
   kTimeCut = 1u << 0,  ///< dt_s was longer than kMaxSubsteps substeps may be, and the rest was dropped; or it
                        ///< was under 1e-15 s and was dropped
@@ -103,7 +103,7 @@ struct SelfContactReport {
   std::size_t crossing = 0;
 };
 
-/// The state of a garment after a frame, and what the frame took.
+/// The state of a garment after a frame, and the cost of the frame.
 struct FrameReport {
   collision::ContactReport contacts;  ///< of particles, summed over the substeps
   FaceReport faces;
@@ -112,7 +112,7 @@ struct FrameReport {
   double median_speed_m_s = 0.0;  ///< median over particles of the distance moved in the frame, a second
   double kinetic_energy_j = 0.0;
   double gravity_energy_j = 0.0;  ///< potential energy, relative to the world's origin
-  double elastic_energy_j = 0.0;  ///< of all edges and hinges, including what sweeps left unsolved
+  double elastic_energy_j = 0.0;  ///< energy of all edges and hinges, including the errors that sweeps leave
   double simulated_s = 0.0;       ///< dt_s, unless kTimeCut is set
   double frame_us = 0.0;          ///< duration of the step, by the context's clock
   double collision_us = 0.0;      ///< time inside the collider, summed over workers
@@ -167,7 +167,7 @@ class Solver {
   std::size_t particles() const noexcept;
   /// Writes the world positions of the garment's vertices (#V).
   void positions(std::span<geometry::Vec3> out) const;
-  /// What make() dropped.
+  /// The warnings of make() about vertices, triangles and pins that it dropped.
   std::span<const engine::Warning> warnings() const noexcept;
   /// A hash of positions and velocities.
   std::uint64_t hash() const noexcept;

@@ -21,7 +21,7 @@ struct WeldedGarment {
   geometry::TriMesh mesh;                           ///< #P particles, no degenerate or duplicate triangles
   std::vector<geometry::Index> particle_of_vertex;  ///< #V of the input: the particle, or kNoIndex if dropped
   double median_edge_m = 0.0;                       ///< of `mesh`
-  std::vector<engine::Warning> warnings;            ///< what was dropped
+  std::vector<engine::Warning> warnings;            ///< warnings about dropped vertices and triangles
 };
 
 /// Welds along seams and short edges. Drops vertices that are not finite or belong to no usable triangle, and

@@ -12,7 +12,7 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// What a map shows.
+/// The quantity that a map shows.
 enum class FitMap {
   kEase,   ///< the distance from the cloth to the skin
   kStrain  ///< how much the cloth is stretched

@@ -14,15 +14,16 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// What moves a body: a rig with weights for each vertex of its skin, and the clip that is played.
+/// The motion of a body: a rig with weights for each vertex of its skin, and the clip that it plays.
 struct BodyMotion {
   rig::Rig rig;
   rig::Clip clip;
   double arms_out_deg = 0.0;  ///< rigging::MotionOptions::arms_out_deg of a made motion, else 0
 };
 
-/// Checks that the rig and its clip are valid and fit a skin of so many vertices. Fails with
-/// kUnusableGeometry or kInvalidArgument and names what does not fit. O(#V + #J + #keys).
+/// Checks that the rig and its clip are valid, and that the rig has weights for this number of vertices.
+/// Fails with kUnusableGeometry or kInvalidArgument, and names the joint, key or number that is wrong. O(#V +
+/// #J + #keys).
 engine::Result<void> check(const BodyMotion& motion, std::size_t vertices);
 
 /// Joints over time: a ramp from the bind pose, in which garments are put on, to the clip's first frame, and

@@ -23,7 +23,7 @@ Penetration penetration(const engine::Context& context, const geometry::MeshDist
                         std::span<const geometry::Vec3> positions);
 
 /// Counts the particles (#P, meters) inside the proxy, deeper than the rounding of float positions, or with
-/// relief than the error that a collider certifies. It is an independent check of what a response leaves: it
+/// relief than the error that a collider certifies. It checks the result of a response independently: it
 /// evaluates proxy::proxy_distance() in double precision, not the collider that moved the particles.
 /// Positions that are not finite are skipped. Cost: one proxy distance a particle, some microseconds.
 std::size_t count_inside(const engine::Context& context, const proxy::BodyProxy& proxy,

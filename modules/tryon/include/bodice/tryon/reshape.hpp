@@ -1,4 +1,4 @@
-// The same body in another shape: what a slider of girth or weight does to its skin.
+// The same body in another shape, as after a slider of girth or weight.
 #pragma once
 
 #include <memory>

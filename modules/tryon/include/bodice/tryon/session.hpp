@@ -10,7 +10,7 @@
 //     }
 //
 // With SessionOptions::moves the bodies play clips: session.play({.motion = "walk"}). The clip is retargeted
-// to each submitted body. In poses far from all of which there are tables, the proxy's tables are solved anew
+// to each submitted body. In a pose far from every pose that has tables, the proxy's tables are solved anew
 // behind the frames.
 #pragma once
 

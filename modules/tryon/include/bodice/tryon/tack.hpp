@@ -24,7 +24,7 @@ struct TackedPiece {
 /// The tacks of a garment, and the pieces that they hold.
 struct Tacking {
   std::vector<cloth::Tack> tacks;   ///< pairs of vertices of the garment
-  std::vector<TackedPiece> pieces;  ///< by piece, then by what it lies on
+  std::vector<TackedPiece> pieces;  ///< sorted by piece, then by the piece below it
 };
 
 /// Finds the tacks between pieces of a garment that lie within `within_m` of each other. Each vertex of a

@@ -32,15 +32,15 @@ struct Wardrobe {
   geometry::TriMesh mesh;
   std::vector<geometry::Index> held;
   std::vector<std::size_t> first_vertex;  ///< #garments + 1
-  std::vector<cloth::Tack> tacks;         ///< what add_tacks() found
+  std::vector<cloth::Tack> tacks;         ///< the tacks from add_tacks()
 };
 
 /// Joins the garments, in order. Fails with kInvalidArgument, naming garment and element, when a triangle or
 /// a held vertex refers to a vertex that the garment does not have. O(#vertices).
 engine::Result<Wardrobe> join(const std::vector<WornGarment>& garments);
 
-/// Tacks the pieces of each garment that lie within `within_m` of each other (find_tacks()); returns what was
-/// tacked, by garment.
+/// Tacks the pieces of each garment that lie within `within_m` of each other (find_tacks()); returns the
+/// tacked pieces of each garment.
 std::vector<std::vector<TackedPiece>> add_tacks(const engine::Context& context,
                                                 const std::vector<WornGarment>& garments, double within_m,
                                                 Wardrobe& wardrobe);
