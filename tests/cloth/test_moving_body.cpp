@@ -222,7 +222,7 @@ TEST_CASE("moving body: continuous collision of one fast particle does not chang
     if (one_is_pulled) p.old_y[kLong] = 0.07f, p.y[kLong] = -0.07f;
     cloth::BodyMotion motion = cloth::make_motion(kCount, 0.5);
     motion.ccd_threshold_m = 0.01f;
-    motion.turns.resize(body.size());
+    motion.rotations.resize(body.size());
     cloth::begin_motion_frame({}, {.body = &body, .moving = true, .length_s = kFrame_s}, p, motion, {});
     const cloth::BodyContact contact = {
         .body = &body, .how = {.thickness_m = 0.002f}, .substep = {.share = {0.9f, 1.0f}}};
@@ -250,7 +250,7 @@ TEST_CASE("moving body: a push is along the body's normal at the end of the subs
   p.y[0] = static_cast<float>(0.052 - body.origin().y());
   cloth::BodyMotion motion = cloth::make_motion(1, 0.5);
   motion.ccd_threshold_m = 1.0f;
-  motion.turns.resize(body.size());
+  motion.rotations.resize(body.size());
   cloth::begin_motion_frame({}, {.body = &body, .moving = true, .length_s = kFrame_s}, p, motion, {});
   const Vec3 normal = Eigen::AngleAxisd(0.5 * kTurn_rad, Vec3::UnitZ()) * Vec3::UnitY();
   const Vec3 inside = 0.045 * normal - body.origin();

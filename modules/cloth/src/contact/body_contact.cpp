@@ -34,10 +34,10 @@ void velocities_from_positions(Particles& p, std::size_t begin, std::size_t end,
 
 // How the body's material moves in a substep at a particle that it pushes.
 struct MaterialMotion {
-  Float4 by;      // the displacement of that material, meters
-  float pushed;   // the sum over the particle's pushes of length times the material's displacement along it,
-                  // square meters
-  Float4 normal;  // the normal of the surface when the substep ends; zero if the body stands still
+  Float4 displacement;    // the displacement of that material, meters
+  float along_pushes_m2;  // the sum over the particle's pushes of length times the material's displacement
+                          // along it, square meters
+  Float4 normal;          // the normal of the surface when the substep ends; zero if the body stands still
 };
 
 // Applies friction to a pushed particle and sets its velocity. The push has the length `depth` along n.
@@ -54,15 +54,15 @@ void friction_and_velocity(Particles& p, std::size_t i, const MaterialMotion& bo
   const Float4 path = {p.x[i] - p.old_x[i], p.y[i] - p.old_y[i], p.z[i] - p.old_z[i], 0.0f};
   // Where pushes nearly cancel, this quotient is arbitrary. It is therefore bounded by the displacement of
   // the material.
-  const float most = std::sqrt(dot(body.by, body.by));
-  const float along_n = dot(path, n) - std::clamp(body.pushed / depth, -most, most);
-  const Float4 slip = path - body.by - along_n * n;
+  const float most = std::sqrt(dot(body.displacement, body.displacement));
+  const float along_n = dot(path, n) - std::clamp(body.along_pushes_m2 / depth, -most, most);
+  const Float4 slip = path - body.displacement - along_n * n;
   const float length = std::sqrt(dot(slip, slip));
   const float kept = length > mu * depth ? 1.0f - mu * depth / length : 0.0f;
   Float4 held = (1.0f - kept) * slip;
   held -= std::max(0.0f, dot(held, body.normal)) * body.normal;
   p.x[i] -= held[0], p.y[i] -= held[1], p.z[i] -= held[2];
-  const Float4 velocity = inverse_h * (kept * slip + body.by);
+  const Float4 velocity = inverse_h * (kept * slip + body.displacement);
   p.vx[i] = velocity[0], p.vy[i] = velocity[1], p.vz[i] = velocity[2];
 }
 
@@ -91,8 +91,8 @@ void respond(Particles& p, ContactState& s, std::size_t i, const BodyContact& co
   const BodyMotion& m = s.motion;
   const auto [begin, end] = contact.substep.share;
   const float share = end - begin;
-  const Float4 normal = turned(load(m.normal[i]), (end - 1.0f) * load(m.turn[i]));
-  friction_and_velocity(p, i, {share * load(m.by[i]), share * m.along[i], normal},
+  const Float4 normal = turned(load(m.normal[i]), (end - 1.0f) * load(m.rotation[i]));
+  friction_and_velocity(p, i, {share * load(m.displacement[i]), share * m.along_pushes_m2[i], normal},
                         m.moving ? s.friction * s.friction_share[i] : s.friction,
                         contact.substep.inverse_per_s());
 }
@@ -170,16 +170,17 @@ void begin_contact_frame(const engine::Context& context, const ContactFrame& giv
   // The paper's response has distances of its own and uses surface velocities by itself.
   if (options.response == collision::Response::kPaper) frame.body = nullptr;
   // Memory is allocated before the body moves.
-  if (frame.body != nullptr) s.motion.turns.resize(frame.body->size());
+  if (frame.body != nullptr) s.motion.rotations.resize(frame.body->size());
   begin_motion_frame(context, frame, particles, s.motion, s.faces.nearest);
   begin_clearance_frame(context, frame, s.touching, particles, s.clearance);
   s.faces.on = false;
   s.proof = {};
   if (frame.body != nullptr && options.face_contact) {
     if (!s.motion.moving) query_particles(context, *frame.body, s.faces, particles);
-    begin_face_frame(context, frame, options.environment,
-                     {s.motion.shift, s.motion.turn, s.motion.along, s.motion.follow, s.motion.moving},
-                     particles, s.faces);
+    begin_face_frame(
+        context, frame, options.environment,
+        {s.motion.shift, s.motion.rotation, s.motion.along_pushes_m2, s.motion.follow, s.motion.moving},
+        particles, s.faces);
   }
   s.patch.assign(s.patch.size(), {});
   s.patch.front().spent_ns = context.clock->now_ns() - begin_ns;
@@ -205,7 +206,8 @@ std::uint32_t resolve_body_contacts(const engine::Context& context, const collis
     if (const std::uint32_t reset = copy_from_points(p, begin, end))
       limits.fetch_or(reset, std::memory_order_relaxed);
     if (paper || collider == nullptr) velocities_from_positions(p, begin, end, inverse_h);
-    if (s.motion.moving) std::fill(&s.motion.along[begin], &s.motion.along[begin] + (end - begin), 0.0f);
+    if (s.motion.moving)
+      std::fill(&s.motion.along_pushes_m2[begin], &s.motion.along_pushes_m2[begin] + (end - begin), 0.0f);
     if (s.faces.on) begin_face_substep(faces, begin, end, p, s.faces);
   });
   if (collider == nullptr) return limits.load();

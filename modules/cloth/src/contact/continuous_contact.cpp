@@ -91,20 +91,20 @@ void find_motion(const ContactFrame& frame, std::size_t begin, std::size_t end, 
     const collision::Contact& at = nearest[i - begin];
     const Vec3 by = frame.length_s * body.surface_velocity(at.ellipsoid, points.at(i - begin));
     const Vec3 normal = Eigen::Map<const Eigen::Vector3f>(at.normal).cast<double>();
-    const Vec3 turn = at.ellipsoid < motion.turns.size() ? motion.turns[at.ellipsoid] : Vec3::Zero();
-    motion.by[i] = point(by), motion.normal[i] = point(normal);
+    const Vec3 turn = at.ellipsoid < motion.rotations.size() ? motion.rotations[at.ellipsoid] : Vec3::Zero();
+    motion.displacement[i] = point(by), motion.normal[i] = point(normal);
     motion.shift[i] = point(follow * by + (1.0 - follow) * by.dot(normal) * normal);
-    motion.turn[i] = point(follow * turn);
-    motion.clear[i] = point(points.at(i - begin));
-    motion.clear[i].weight = (at.signed_distance - touching_m) / steepness.slope;
+    motion.rotation[i] = point(follow * turn);
+    motion.free_ball[i] = point(points.at(i - begin));
+    motion.free_ball[i].weight = (at.signed_distance - touching_m) / steepness.slope;
   }
 }
 
 // Whether particle i cannot touch the body on the path between these points, which are shifted to the pose at
 // the end of the frame.
 bool is_clear(const BodyMotion& motion, std::size_t i, Float4 from, Float4 to) {
-  const float radius_m = motion.clear[i].weight;
-  const Float4 at = load(motion.clear[i]), before = xyz(from - at), now = xyz(to - at);
+  const float radius_m = motion.free_ball[i].weight;
+  const Float4 at = load(motion.free_ball[i]), before = xyz(from - at), now = xyz(to - at);
   return radius_m > 0.0f && std::max(dot(before, before), dot(now, now)) < radius_m * radius_m;
 }
 
@@ -139,7 +139,7 @@ struct ByPath {
       // The collider moves safe positions with the whole frame's motion, so that they are given as before
       // the frame.
       if (&group == &long_paths)
-        group.safe.put(group.count, p.old_x[i], p.old_y[i], p.old_z[i], from - load(motion.by[i]));
+        group.safe.put(group.count, p.old_x[i], p.old_y[i], p.old_z[i], from - load(motion.displacement[i]));
       group.now.put(group.count, p.x[i], p.y[i], p.z[i], to);
       group.add(i, length_m);
     }
@@ -163,8 +163,8 @@ collision::ContactReport resolve_group(const engine::Context& context, const Bod
     const std::size_t i = group.particle[k];
     const Float4 push = {after.x[k] - group.now.x[k], after.y[k] - group.now.y[k],
                          after.z[k] - group.now.z[k], 0.0f};
-    motion.along[i] += dot(push, load(motion.by[i]));
-    const Float4 by = turned(push, (contact.substep.share.end - 1.0f) * load(motion.turn[i]));
+    motion.along_pushes_m2[i] += dot(push, load(motion.displacement[i]));
+    const Float4 by = turned(push, (contact.substep.share.end - 1.0f) * load(motion.rotation[i]));
     p.x[i] += by[0], p.y[i] += by[1], p.z[i] += by[2];  // a particle without a push keeps its exact position
   }
   return report;
@@ -175,9 +175,10 @@ collision::ContactReport resolve_group(const engine::Context& context, const Bod
 BodyMotion make_motion(std::size_t particles, double friction) {
   BodyMotion motion;
   motion.follow = static_cast<float>(std::clamp(friction / kFollowingFriction, 0.0, 1.0));
-  for (auto* vectors : {&motion.by, &motion.shift, &motion.normal, &motion.turn, &motion.clear})
+  for (auto* vectors :
+       {&motion.displacement, &motion.shift, &motion.normal, &motion.rotation, &motion.free_ball})
     vectors->resize(particles);
-  motion.along.resize(particles);
+  motion.along_pushes_m2.resize(particles);
   motion.owner.assign(particles, collision::kNoEllipsoid);
   return motion;
 }
@@ -198,12 +199,12 @@ void begin_motion_frame(const engine::Context& context, const ContactFrame& fram
   motion.moving = frame.moving_body() != nullptr;
   if (!motion.moving) {
     if (!moved) return;
-    for (auto* vectors : {&motion.by, &motion.shift, &motion.normal, &motion.turn})
+    for (auto* vectors : {&motion.displacement, &motion.shift, &motion.normal, &motion.rotation})
       std::ranges::fill(*vectors, Point{});
-    std::ranges::fill(motion.along, 0.0f);
+    std::ranges::fill(motion.along_pushes_m2, 0.0f);
     return;
   }
-  find_rotations(*frame.body, frame.length_s, motion.turns);
+  find_rotations(*frame.body, frame.length_s, motion.rotations);
   engine::parallel_for(context, p.count(), kPatch, [&](std::size_t begin, std::size_t end) {
     find_motion(frame, begin, end, p, motion, nearest);
   });

@@ -30,21 +30,21 @@ struct BodyMotion {
   bool moving = false;           ///< whether the body moves in this frame
   float follow = 0.0f;  ///< the share of the body's motion along the surface that cloth follows, 0 to 1
   /// #P: displacement of the nearest material in the frame, meters; zero if the body stands still.
-  std::vector<Point> by;
-  std::vector<Point> shift;  ///< #P: the shift for a whole frame, meters: `by` along the normal, `follow`
-                             ///< times `by` along the surface
+  std::vector<Point> displacement;
+  std::vector<Point> shift;  ///< #P: the shift for a whole frame, meters: `displacement` along the normal,
+                             ///< `follow` times `displacement` along the surface
   /// #P: normal of the surface there when the frame ends; zero if the body stands still.
   std::vector<Point> normal;
-  std::vector<Point> turn;  ///< #P: rotation vector of the material in the frame, times `follow`; radians
+  std::vector<Point> rotation;  ///< #P: rotation vector of the material in the frame, times `follow`; radians
   /// #P: a ball in the body's pose at the end of the frame, with its radius as weight, meters. A particle
   /// inside it touches nothing. Where the radius is not above zero, no such ball is known.
-  std::vector<Point> clear;
+  std::vector<Point> free_ball;
   /// #P: the sum over a substep's pushes of length times the material's displacement in the frame along it,
   /// square meters. Divided by the length of the whole push, it is the displacement along the whole push.
-  std::vector<float> along;
+  std::vector<float> along_pushes_m2;
   /// #P: the ellipsoid nearest to the particle when the last frame ended, or kNoEllipsoid.
   std::vector<std::uint32_t> owner;
-  std::vector<Vec3> turns;  ///< #ellipsoids of the body: how each turns in the frame, radians
+  std::vector<Vec3> rotations;  ///< #ellipsoids of the body: how each turns in the frame, radians
 };
 
 /// The state for this number of particles of cloth with this coefficient of friction, near a body at rest.
@@ -59,9 +59,9 @@ struct FrameShare {
 bool is_moving(const collision::Collider& body);
 
 /// Begins a frame: finds the motion of the body near each particle. `nearest` (#P, or empty) receives the
-/// contacts of the particles at positions displaced by `by`. Cost: a query a particle if the body moves, two
-/// where owners are not known, and nothing otherwise. Precondition: `turns` has one element for each
-/// ellipsoid.
+/// contacts of the particles after they are moved by `displacement`. Cost: a query a particle if the body
+/// moves, two where owners are not known, and nothing otherwise. Precondition: `rotations` has one element
+/// for each ellipsoid.
 void begin_motion_frame(const engine::Context& context, const ContactFrame& frame, const Particles& particles,
                         BodyMotion& motion, std::span<collision::Contact> nearest);
 

@@ -52,7 +52,7 @@ bool guard_sunk(const engine::Context& context, const ResolvedBody& body, std::s
       if (!(to.contact[k].signed_distance < least_m)) continue;
       const float* const n = (was_guarded ? to : from).contact[k].normal;
       const Float4 normal =
-          turned(Float4{n[0], n[1], n[2], 0.0f}, -body.remaining * load(body.motion->turn[batch[k]]));
+          turned(Float4{n[0], n[1], n[2], 0.0f}, -body.remaining * load(body.motion->rotation[batch[k]]));
       const float along = was_guarded ? dot(load(now[batch[k]]) - load(resolved[batch[k]]), normal) : 0.0f;
       const float below_m = (was_guarded ? to : from).contact[k].signed_distance;
       own = {normal[0], normal[1], normal[2], along + allowed_m - below_m};

@@ -50,8 +50,8 @@ inline float band_of(const SampleRules& rules) {
 
 /// The parts of BodyMotion that samples use: the body's motion in a frame near each particle (#P).
 struct MotionNearParticles {
-  std::span<const Point> shift, turn;
-  std::span<float> along;
+  std::span<const Point> shift, rotation;
+  std::span<float> along_pushes_m2;
   float follow = 0.0f;
   bool moving = false;  ///< whether any of it is not zero
 };

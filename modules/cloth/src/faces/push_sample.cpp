@@ -27,7 +27,7 @@ Float4 normal_now(const FaceSample& s, float remaining, const FaceContact& f) {
   if (!f.motion.moving) return normal;
   const std::array<float, 3> weight = weights_of(s);
   Float4 turn = splat(0.0f);
-  for (int c = 0; c < 3; ++c) turn += weight[c] * load(f.motion.turn[s.particle[c]]);
+  for (int c = 0; c < 3; ++c) turn += weight[c] * load(f.motion.rotation[s.particle[c]]);
   return turned(normal, -remaining * turn);
 }
 
@@ -62,7 +62,7 @@ bool push_out(const FaceSample& s, const FaceSubstep& substep, const Particles& 
     Point& point = f.now[i];
     const float by = push * point.weight * weight[c] / yielding;
     store(point, load(point) + by * normal);
-    if (f.motion.moving) f.motion.along[i] += by * ahead;
+    if (f.motion.moving) f.motion.along_pushes_m2[i] += by * ahead;
   }
   return true;
 }

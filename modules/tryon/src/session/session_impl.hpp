@@ -40,7 +40,7 @@ struct Session::Impl {
   std::optional<cloth::Solver> solver;
   std::shared_ptr<const Wardrobe> wardrobe;  // null: no garments
 
-  const SessionBody* seen_body = nullptr;  // of the streams, at the last boundary
+  const SessionBody* seen_body = nullptr;  // the results of the streams at the last frame boundary
   const SessionMotion* seen_motion = nullptr;
   const SessionShape* seen_shape = nullptr;
   std::shared_ptr<const SessionBody> body;  // in use
