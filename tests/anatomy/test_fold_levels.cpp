@@ -123,3 +123,21 @@ TEST_CASE(
       CHECK(doubts(found) == (confidence < 0.85 || cut ? 1 : 0));
     }
 }
+
+TEST_CASE("what closes holes hides folds and moves none up: higher armpits of such skin are in doubt later") {
+  const std::vector<std::uint8_t> closed(4, 1);
+  anatomy::Options options;
+  options.made_up = closed;
+  for (const double lower : {0.033, -0.033, -0.045})
+    for (const bool cut : {false, true}) {
+      CAPTURE(lower);
+      CAPTURE(cut);
+      auto found = found_on(synth::Pose::kArmsDown);
+      const auto below = anatomy::folds_below_expected(found.landmarks);
+      REQUIRE(below);
+      mark(found, LandmarkId::kArmpitL).position -= (lower - (*below)[0]) * found.stature_m * found.up;
+      if (cut) found.warnings.push_back({"limbs-cut", "", "", ""});
+      anatomy::doubt_folds(options, found);
+      CHECK(doubts(found) == (lower == -0.033 && !cut ? 0 : 1));
+    }
+}

@@ -10,6 +10,7 @@
 #include "check/flat_parts.hpp"
 #include "check/fold_doubts.hpp"
 #include "check/fused_limbs.hpp"
+#include "check/unequal_arms.hpp"
 #include "landmarks/find_landmarks.hpp"
 #include "landmarks/stature.hpp"
 #include "segment/segment.hpp"
@@ -165,7 +166,10 @@ engine::Result<Anatomy> analyze(const engine::Context& context, const geometry::
     auto found = checked(mesh, cut_welds(context, mesh, options, analyze_mesh), options.force);
     if (!found) return found;
     doubt_folds(options, *found);
-    if (was_cut(*found) || was_closed(options)) doubt_low_armpits(context, mesh, *found);
+    const bool cut = was_cut(*found);
+    if (cut) doubt_unequal_arms(*found);
+    if (cut || was_closed(options)) doubt_low_armpits(context, mesh, *found);
+    if (cut) doubt_armpits_by_room(context, mesh, *found);
     return found;
   });
 }

@@ -8,15 +8,15 @@
 
 #include <bodice/anatomy/plausible.hpp>
 
-#include "analyze/crown_of_skin.hpp"
 #include "analyze/expected_folds.hpp"
 #include "analyze/folds_hidden.hpp"
 #include "analyze/thin_copy.hpp"
+#include "analyze/tips_of_skin.hpp"
+#include "analyze/upright_height.hpp"
 #include "analyze/weld_signs.hpp"
 #include "check/fold_doubts.hpp"
 #include "check/fold_levels.hpp"
 #include "check/named_folds.hpp"
-#include "check/thighs.hpp"
 #include "walls/webs.hpp"
 
 namespace bodice::inline v0_1::anatomy {
@@ -27,9 +27,9 @@ using geometry::MeshDistance;
 using geometry::TriMesh;
 using geometry::Vec3;
 
-/// The depths of thin copies, fractions of the stature: 2, 9 and 14 mm. The first keeps the fingers, by which
-/// arms are measured, and suffices where limbs are joined by webs alone. Where limbs are not apart at one
-/// depth, they may be at the next.
+/// The depths of thin copies, fractions of the stature: 2, 9 and 14 mm. The first keeps most fingers, by
+/// which arms are measured, and suffices where limbs are joined by webs alone. Where limbs are not apart at
+/// one depth, they may be at the next.
 constexpr std::array kDepths = {0.0012, 0.0053, 0.0082};
 /// The shares of the limbs' depth that a neck between limbs may have, where walls are needed.
 constexpr std::array kNecks = {0.92, 0.95, 0.88};
@@ -85,22 +85,21 @@ bool folds_fit(const Anatomy& apart) {
   return fit >= kFoldsFit;
 }
 
-/// Whether the result for a standing body is plausible although its folds cannot be predicted: they look as
-/// on known bodies, and the stature is that of the skin without cuts.
-bool looks_right(const engine::Result<Anatomy>& as_is, const Anatomy& apart) {
-  return as_is && folds_fit(apart) && std::ranges::min(thigh_cosines(apart)) >= kUpright &&
-         std::abs(apart.stature_m / as_is->stature_m - 1.0) < kSameStature;
+/// Whether the result for a body with hardly bent thighs is plausible although its folds cannot be predicted:
+/// they look as on known bodies, and the stature is that of the joints.
+bool looks_right(const Anatomy& apart) {
+  const auto height = upright_height(apart);
+  return height && folds_fit(apart) && std::abs(apart.stature_m / *height - 1.0) < kSameStature;
 }
 
 /// Whether nothing but a handle is in doubt, and armpits and crotch are where the limbs predict them, or are
 /// plausible. With `webs_only` the room inside the body gave the folds, which is evidence as well.
-bool is_sure(const engine::Result<Anatomy>& as_is, const Anatomy& apart, const ThinCopy& thin,
-             bool webs_only) {
+bool is_sure(const Anatomy& apart, const ThinCopy& thin, bool webs_only) {
   const bool deep = thin.depth > kDepths[0] * kMuchDeeper * apart.stature_m;
   if (doubts_but_handles(apart) > 0 || fold_misfit(apart.landmarks) > (deep ? kDeepMisfit : 1.0))
     return false;
   if (folds_below_expected(apart.landmarks) || (webs_only && doubts(apart) == 0)) return true;
-  return !deep && looks_right(as_is, apart);
+  return !deep && looks_right(apart);
 }
 
 /// A thin copy on which limbs are apart, and the result on it.
@@ -177,9 +176,9 @@ Anatomy transferred(const WeldedBody& body, const SeparatedCopy& copy, const eng
   Anatomy apart = carry_out(body.context, copy.thin, copy.found, body.mesh);
   const std::string where = as_is ? hidden_folds(*as_is, apart) : "";
   doubt(copy.left, apart);
-  if (as_is) drop_crown_doubts(*as_is, apart);
+  if (as_is) take_tips(*as_is, apart);
   if (as_is) apart.stages = as_is->stages;
-  warn(where, copy.thin, is_sure(as_is, apart, copy.thin, webs_only), apart);
+  warn(where, copy.thin, is_sure(apart, copy.thin, webs_only), apart);
   return apart;
 }
 

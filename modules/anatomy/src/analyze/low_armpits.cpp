@@ -17,12 +17,9 @@ constexpr double kLeastBelow = 0.01;
 constexpr double kTogether = 0.02;
 /// How far the room inside a whole body has the fold below its armpit.
 constexpr double kRoomBelow = 0.01;
-
-bool has_warning(const Anatomy& anatomy, const NamedFold& fold) {
-  return std::ranges::any_of(anatomy.warnings, [&](const engine::Warning& w) {
-    return w.code == fold.code && w.part == body::name(fold.part);
-  });
-}
+/// The least room above an armpit that is evidence by itself, on a body that was cut apart. Correct armpits
+/// have 0.01 at most, and three that walls beside webs had led outward 0.05 to 0.08.
+constexpr double kRoomAlone = 0.03;
 
 }  // namespace
 
@@ -44,12 +41,25 @@ void doubt_low_armpits(const engine::Context& context, const geometry::TriMesh& 
   const std::array<double, 2> up = armpits_too_low(context, skin, anatomy);
   for (std::size_t side = 0; side < up.size(); ++side) {
     const NamedFold& fold = kNamedFolds[side];
-    if (!(up[side] > 0.0) || has_warning(anatomy, fold)) continue;
+    if (!(up[side] > 0.0) || in_doubt(anatomy, fold)) continue;
     doubt_fold(
         fold,
         std::to_string(std::lround(1e3 * up[side])) +
             " thousandths of the stature lower than limbs, trunk and the room inside the body predict.",
         ", seen from all sides, shows it.", anatomy);
+  }
+}
+
+void doubt_armpits_by_room(const engine::Context& context, const geometry::TriMesh& skin, Anatomy& anatomy) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    const NamedFold& fold = kNamedFolds[side];
+    if (in_doubt(anatomy, fold)) continue;
+    const auto by_room = web_height(context, skin, anatomy, fold.id);
+    if (!by_room || *by_room < kRoomAlone) continue;
+    doubt_fold(fold,
+               std::to_string(std::lround(1e3 * *by_room)) +
+                   " thousandths of the stature lower than the room inside the body shows.",
+               ", seen from all sides, shows it.", anatomy);
   }
 }
 

@@ -16,4 +16,7 @@ std::array<double, 2> armpits_too_low(const engine::Context& context, const geom
 /// Warns of armpits that are still too low, on a skin that is not cut.
 void doubt_low_armpits(const engine::Context& context, const geometry::TriMesh& skin, Anatomy& anatomy);
 
+/// Doubts armpits of a body that was cut apart, by the room inside `skin` alone: they lie much too low.
+void doubt_armpits_by_room(const engine::Context& context, const geometry::TriMesh& skin, Anatomy& anatomy);
+
 }  // namespace bodice::anatomy

@@ -62,16 +62,19 @@ bool may_hide_folds(const Options& options, const Anatomy& anatomy) {
 }
 
 void doubt_folds(const Options& options, Anatomy& anatomy) {
-  const bool cut = was_cut(anatomy), changed = cut || was_closed(options);
+  const bool cut = was_cut(anatomy);
   if (cut) doubt_neck(anatomy);
   const auto below = folds_below_expected(anatomy.landmarks);
   if (!below) return;
-  const double armpit_room = changed || hides_armpits(anatomy, *below) ? 1.0 : kAsGiven;
+  const bool hidden = hides_armpits(anatomy, *below);
   for (std::size_t i = 0; i < kNamedFolds.size(); ++i) {
     const NamedFold& fold = kNamedFolds[i];
     const bool crotch = fold.id == body::LandmarkId::kPerineum;
     const double off = (*below)[i];
-    if (!changed && crotch) continue;
+    // Skin that closes a hole may have a fold too low, and none too high.
+    const bool as_given = !cut && (off < 0.0 || !was_closed(options));
+    if (as_given && crotch) continue;
+    const double armpit_room = as_given && !hidden ? kAsGiven : 1.0;
     const double confidence = at(anatomy, fold.id).confidence;
     const double crotch_room = !cut && confidence >= kLooksRight ? kCrotchRoom : 1.0;
     const double most = crotch ? crotch_room * kPerineumOff : armpit_room * kArmpitOff;

@@ -10,6 +10,12 @@ constexpr double kFoldInDoubt = 0.3;
 
 }  // namespace
 
+bool in_doubt(const Anatomy& anatomy, const NamedFold& fold) {
+  return std::ranges::any_of(anatomy.warnings, [&](const engine::Warning& w) {
+    return w.code == fold.code && w.part == body::name(fold.part);
+  });
+}
+
 void doubt_fold(const NamedFold& fold, const std::string& lies, const std::string& shown_by,
                 Anatomy& anatomy) {
   double& confidence = anatomy.landmarks[static_cast<std::size_t>(fold.id)].confidence;

@@ -21,6 +21,9 @@ inline constexpr std::array<NamedFold, 3> kNamedFolds = {
      {body::LandmarkId::kArmpitR, body::Part::kUpperArmR, "armpit-uncertain", "the right armpit"},
      {body::LandmarkId::kPerineum, body::Part::kThighL, "perineum-uncertain", "the crotch"}}};
 
+/// Whether a warning doubts the fold.
+bool in_doubt(const Anatomy& anatomy, const NamedFold& fold);
+
 /// Lowers the confidence of a fold below that of landmarks which are named in a warning, and warns of it.
 /// `lies` ends the sentence that begins with its name; `shown_by` is the pose that the remedy names.
 void doubt_fold(const NamedFold& fold, const std::string& lies, const std::string& shown_by,
