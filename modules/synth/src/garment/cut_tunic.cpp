@@ -23,6 +23,8 @@ constexpr double kFrontNeckline = 0.55;  // from the armpits' height (0) over th
 constexpr double kBackNeckline = 0.7;
 constexpr double kNeckFoot = 0.035;  // in statures from the lowest skin of the head upward
 constexpr double kStrap = 0.02;      // width over a shoulder at the neck, in statures
+// Where the neck leaves less room, straps are so wide all the same: a string would not carry a fine mesh.
+constexpr double kLeastStrap = 0.009;
 
 struct Plan {
   int front = 0;                      ///< cells across a panel
@@ -137,7 +139,8 @@ Plan make_plan(const Fitting& f) {
   plan.hole_back = plan.rows - static_cast<int>(std::lround(0.5 * kBackNeckline * plan.rows));
   const double cell = 2.0 * plan.half_width / plan.front;
   const int most = plan.front / 2 - 1;
-  plan.hole_begin = std::clamp(static_cast<int>((plan.half_width - neck_width(f)) / cell), 1, most);
+  const int least = std::clamp(static_cast<int>(std::lround(kLeastStrap * h / cell)), 1, most);
+  plan.hole_begin = std::clamp(static_cast<int>((plan.half_width - neck_width(f)) / cell), least, most);
   const int strap = std::clamp(static_cast<int>(std::lround(kStrap * h / cell)), plan.hole_begin, most);
   for (int i = plan.hole_begin + 1; i <= strap && beside_neck(f, plan.x(i)); ++i) plan.hole_begin = i;
   plan.hole_end = plan.front - plan.hole_begin;
