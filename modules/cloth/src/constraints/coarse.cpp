@@ -4,7 +4,9 @@
 // interpolated, not positions.
 #include "constraints/coarse.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <span>
 
 #include <bodice/engine/parallel.hpp>
@@ -13,6 +15,10 @@
 
 namespace bodice::inline v0_1::cloth {
 namespace {
+
+// The body holds a node that ties pull farther into it than this in a substep. Contact suffices for less,
+// which is what a part of a garment does that carries a few times its own mass.
+constexpr float kPressed_m = 5e-4f;
 
 // Solves a pack of ties; returns whether one was too long.
 bool pull_pack(CoarseLevel& level, std::size_t pack) {
@@ -77,13 +83,50 @@ Float4 moved_to(std::span<const CoarseLevel* const> moved, const Particles& p, s
   return at;
 }
 
+// Takes from the displacement of a node what the body blocks: all of it along -n, and of that along the
+// surface as much as friction holds.
+Float4 allowed(Float4 displacement, Float4 n, float friction) {
+  const float along_n = dot(displacement, n), pressed = std::max(0.0f, -along_n);
+  const Float4 slip = displacement - along_n * n;
+  const float length = std::sqrt(dot(slip, slip));
+  const float kept = length > friction * pressed ? 1.0f - friction * pressed / length : 0.0f;
+  return std::max(0.0f, along_n) * n + kept * slip;
+}
+
+// Puts nodes back that ties have pulled into the body, and holds them there; true if there is one.
+bool hold_supported(const engine::Context& context, const Support& support, CoarseLevel& level) {
+  std::atomic<bool> any{false};
+  engine::parallel_for(context, level.node.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      const Index i = level.node[n];
+      if (!support.touching[i]) continue;
+      const Float4 from = load(level.move[n]), normal = xyz(load(support.normal[i]));
+      const Float4 displacement = xyz(load(level.at[n]) - from);
+      if (!(dot(displacement, normal) < -kPressed_m)) continue;
+      const float share = support.friction_share.empty() ? 1.0f : support.friction_share[i];
+      const Float4 at = from + allowed(displacement, normal, share * support.friction);
+      level.at[n] = {at[0], at[1], at[2], 0.0f};
+      any.store(true, std::memory_order_relaxed);
+    }
+  });
+  return any.load();
+}
+
+// Makes sweeps until all ties are within their limits, when another one would change nothing; true if one was
+// too long.
+bool pull_together(const engine::Context& context, CoarseLevel& level) {
+  bool pulled = false;
+  for (int sweep = 0; sweep < level.sweeps && pull(context, level); ++sweep) pulled = true;
+  return pulled;
+}
+
 void load_nodes(const engine::Context& context, std::span<const CoarseLevel* const> moved, const Particles& p,
                 CoarseLevel& level) {
   engine::parallel_for(context, level.node.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       const Float4 from = moved_to(moved, p, level.node[n]);
       store(level.move[n], from);
-      level.at[n].x = from[0], level.at[n].y = from[1], level.at[n].z = from[2];
+      level.at[n] = {from[0], from[1], from[2], level.inverse_mass[n]};
     }
   });
 }
@@ -114,25 +157,23 @@ void update_weights(const engine::Context& context, const Particles& p, std::vec
     const std::size_t nodes = level.node.size();
     const std::size_t grain = 1 + nodes * kParticleGrain / level.child.size();
     engine::parallel_for(context, nodes, grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t n = begin; n < end; ++n) level.at[n].weight = inverse_mass(p, level, n);
+      for (std::size_t n = begin; n < end; ++n) level.inverse_mass[n] = inverse_mass(p, level, n);
     });
   }
 }
 
 // Nodes of a finer level start at the positions that the coarser levels give; particles follow all levels at
-// the end.
-void solve_coarse(const engine::Context& context, std::vector<CoarseLevel>& levels, Particles& p) {
+// the end. First all nodes move, which gives what presses them on the body. Those that are held there are
+// then fixed for the others: a strap of few particles could not carry a dress otherwise, because ties would
+// share each pull by mass and contact would push the strap alone out of the body.
+void solve_coarse(const engine::Context& context, const Support& support, std::vector<CoarseLevel>& levels,
+                  Particles& p) {
   const CoarseLevel* moved[kMostLevels] = {};
   std::size_t count = 0;
   for (CoarseLevel& level : levels) {
     load_nodes(context, {moved, count}, p, level);
-    bool pulled = false;
-    for (int sweep = 0; sweep < level.sweeps; ++sweep) {
-      if (!pull(context, level))
-        break;  // all ties are within their limits, and another sweep would change nothing
-      pulled = true;
-    }
-    if (!pulled) continue;
+    if (!pull_together(context, level)) continue;
+    if (hold_supported(context, support, level)) pull_together(context, level);
     to_displacements(context, level);
     moved[count++] = &level;
   }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include <bodice/engine/context.hpp>
@@ -39,9 +41,10 @@ struct Ties {
 
 /// The nodes of one level.
 struct CoarseLevel {
-  int sweeps = 1;           ///< the most sweeps over the ties a substep
-  std::vector<Index> node;  ///< #N: the particle at each node
-  /// #N, then points for idle slots; the weight is the inverse of the represented mass.
+  int sweeps = 1;                   ///< the most sweeps over the ties a substep
+  std::vector<Index> node;          ///< #N: the particle at each node
+  std::vector<float> inverse_mass;  ///< #N: of the represented particles
+  /// #N, then points for idle slots; the weight is the inverse mass, or zero where the body holds the node.
   std::vector<Point> at;
   /// #N, meters: at first the position where the solution begins, then the displacement.
   std::vector<Point> move;
@@ -49,6 +52,14 @@ struct CoarseLevel {
   std::vector<Parents> parents;    ///< #P
   std::vector<Index> child_begin;  ///< #N + 1: offsets into child
   std::vector<Child> child;        ///< the particles of each node, ascending
+};
+
+/// What the body does to the particles that it touches, #P each.
+struct Support {
+  std::span<const std::uint8_t> touching;  ///< whether it does
+  std::span<const Point> normal;          ///< unit, out of the body, where it does; zero: it supports nothing
+  std::span<const float> friction_share;  ///< the share of `friction` that acts; empty: all of it
+  float friction = 0.0f;                  ///< coefficient of friction
 };
 
 /// The levels from the coarsest to the finest; none for a garment of a few edges. The limit of a tie is its
@@ -60,7 +71,9 @@ std::vector<CoarseLevel> make_coarse(const geometry::TriMesh& mesh, const Topolo
 void update_weights(const engine::Context& context, const Particles& particles,
                     std::vector<CoarseLevel>& levels);
 
-/// Pulls nodes together that are farther apart than their limit, and moves the particles with them.
-void solve_coarse(const engine::Context& context, std::vector<CoarseLevel>& levels, Particles& particles);
+/// Pulls nodes together that are farther apart than their limit, and moves the particles with them. Nodes
+/// that touch the body are not pulled into it, and its friction holds them; those that hang follow them.
+void solve_coarse(const engine::Context& context, const Support& support, std::vector<CoarseLevel>& levels,
+                  Particles& particles);
 
 }  // namespace bodice::cloth

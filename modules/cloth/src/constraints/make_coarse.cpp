@@ -99,7 +99,7 @@ CoarseLevel make_level(const geometry::TriMesh& mesh, ClothDistance& distance, d
   }
   list_children(level);
   level.at.resize(level.node.size() + idle_particles(level.node.size())),
-      level.move.resize(level.node.size());
+      level.move.resize(level.node.size()), level.inverse_mass.resize(level.node.size());
   return level;
 }
 

@@ -17,6 +17,9 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
+// A push of less than this share of the most that a substep allows ends on the surface.
+constexpr float kReachedSurface = 0.9f;
+
 collision::Particles view(Particles& p, std::size_t begin, std::size_t end, bool with_velocities) {
   collision::Particles v;
   v.count = end - begin;
@@ -40,6 +43,25 @@ struct MaterialMotion {
   Float4 normal;          // the normal of the surface when the substep ends; zero if the body stands still
 };
 
+// The push of a particle by the body: its direction and its length, meters.
+struct Push {
+  Float4 n;
+  float depth;
+};
+
+Push push_of(const Particles& p, std::size_t i) {
+  const Point& before = p.point[i];
+  const Float4 push = {p.x[i] - before.x, p.y[i] - before.y, p.z[i] - before.z, 0.0f};
+  const float depth = std::sqrt(dot(push, push));
+  return {push / depth, depth};
+}
+
+// The surface's normal as a push shows it. A particle that is pushed as far as a substep allows is still
+// inside, where the direction of the push shows no support: its normal is zero.
+Float4 surface_normal(const Push& push, float max_push_m) {
+  return push.depth < kReachedSurface * max_push_m ? push.n : splat(0.0f);
+}
+
 // Applies friction to a pushed particle and sets its velocity. The push has the length `depth` along n.
 // Friction undoes up to mu * depth of the particle's displacement along the surface, relative to the body's
 // material. It moves no particle into the surface, although a face may push its corners along other normals
@@ -47,10 +69,7 @@ struct MaterialMotion {
 // material at the particle.
 void friction_and_velocity(Particles& p, std::size_t i, const MaterialMotion& body, float mu,
                            float inverse_h) {
-  const Point& before = p.point[i];
-  const Float4 push = {p.x[i] - before.x, p.y[i] - before.y, p.z[i] - before.z, 0.0f};
-  const float depth = std::sqrt(dot(push, push));
-  const Float4 n = push / depth;
+  const auto [n, depth] = push_of(p, i);
   const Float4 path = {p.x[i] - p.old_x[i], p.y[i] - p.old_y[i], p.z[i] - p.old_z[i], 0.0f};
   // Where pushes nearly cancel, this quotient is arbitrary. It is therefore bounded by the displacement of
   // the material.
@@ -87,6 +106,7 @@ void respond(Particles& p, ContactState& s, std::size_t i, const BodyContact& co
   if (p.inverse_mass[i] == 0.0f) restore_pin(p, i, contact.substep.inverse_per_s());
   s.touching[i] = p.x[i] != before.x || p.y[i] != before.y || p.z[i] != before.z;
   if (!s.touching[i]) return;
+  store(s.normal[i], surface_normal(push_of(p, i), contact.how.max_push_m));
   if (is_paper(contact)) return;
   const BodyMotion& m = s.motion;
   const auto [begin, end] = contact.substep.share;
@@ -156,6 +176,7 @@ ContactState make_contacts(std::size_t particles, double friction, FaceContact f
   s.friction = static_cast<float>(friction);
   s.friction_share.assign(particles, 1.0f);
   s.touching.assign(particles, 0);
+  s.normal.assign(particles, {});
   s.clearance = make_clearance_cache(particles);
   s.motion = make_motion(particles, friction);
   s.patch.resize(engine::block_count(particles, kPatch));

@@ -28,6 +28,7 @@ struct ContactState {
   float friction = 0.0f;               ///< coefficient of friction of the cloth
   std::vector<float> friction_share;   ///< #P: the share of `friction` that acts while the body moves, 0 to 1
   std::vector<std::uint8_t> touching;  ///< #P: whether the collider moved the particle in the last substep
+  std::vector<Point> normal;           ///< #P: the surface's normal there if it did; zero while deep inside
   std::vector<ContactPatch> patch;     ///< #P / kPatch
   ClearanceCache clearance;
   BodyMotion motion;

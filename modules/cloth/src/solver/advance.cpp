@@ -136,6 +136,12 @@ ResolvedBody resolved_body(const collision::Collider* collider, const FrameShare
   return {collider, &s.contacts.motion, thickness_m, thickness_m, 1.0f - share.end};
 }
 
+Support support_of(const ContactState& contacts) {
+  Support support{contacts.touching, contacts.normal, {}, contacts.friction};
+  if (contacts.motion.moving) support.friction_share = contacts.friction_share;
+  return support;
+}
+
 std::uint32_t run_substep(const engine::Context& context, const collision::Collider* collider,
                           const Plan& plan, int substep, State& s) {
   Particles& p = s.particles;
@@ -152,7 +158,7 @@ std::uint32_t run_substep(const engine::Context& context, const collision::Colli
     solve_stretch_across(context, s.stretch, inverse_h2, p);
     solve_threads(s.threads, p.point);
   }
-  solve_coarse(context, s.coarse, p);
+  solve_coarse(context, support_of(s.contacts), s.coarse, p);
   const SelfSubstep with_itself = self_substep(plan, s);
   if (touches_itself(plan, s)) push_apart(context, with_itself, s.self, p);
   limits |= resolve_body_contacts(context, collider, s.options, {plan.substep_s, share(substep, plan)},
