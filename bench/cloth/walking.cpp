@@ -14,6 +14,7 @@
 
 #include <bench_support/median.hpp>
 #include <bench_support/or_exit.hpp>
+#include <bench_support/visible.hpp>
 
 namespace bench {
 namespace {
@@ -25,15 +26,13 @@ constexpr double kStep_s = 1.0 / 60.0;
 constexpr int kFramesBefore = 90, kFrames = 120;
 // Skin that shows is measured between the frames that are timed, in every tenth.
 constexpr int kJudged = 10;
-// Cloth that lies deeper in the posed skin shows it.
-constexpr double kVisible_m = 0.5e-3;
 
 /// A garment on the built-in body, and the most that its frames may take and show.
 struct Walk {
   const char* name;
   synth::GarmentKind kind;
-  double edge_m;      ///< of the garment's triangles
-  int skin_vertices;  ///< of the body
+  double edge_m;      ///< length of the garment's edges
+  int skin_vertices;  ///< requested number of the body's vertices
   double bar_particles, bar_ms, bar_cm2;
 };
 
@@ -42,7 +41,7 @@ struct WalkingFrames {
   std::size_t particles = 0, skin_vertices = 0;
   std::uint64_t hash = 0;
   double shown_cm2 = 0.0;  ///< the most of the judged frames
-  std::vector<double> ms, searches, pairs, body_ms;
+  std::vector<double> ms, searches, pairs, body_ms, stretch_p95;
 };
 
 /// Area of the cloth inside the posed skin of the last frame.
@@ -77,6 +76,7 @@ WalkingFrames walk(const Walk& scene, int workers) {
     frames.body_ms.push_back(1e-3 * report.collision_us);
     frames.searches.push_back(static_cast<double>(report.layers.searches));
     frames.pairs.push_back(static_cast<double>(report.layers.pairs));
+    frames.stretch_p95.push_back(report.stretch_p95);
     if (k % kJudged == kJudged - 1)
       frames.shown_cm2 = std::max(frames.shown_cm2, shown_cm2(context, session, garment.mesh.triangles));
   }
@@ -100,13 +100,13 @@ void print_walking() {
       const WalkingFrames frames = walk(scene, workers);
       const double ms = median(frames.ms);
       std::printf(
-          "a %s of %zu particles on a body of %zu vertices that walks, 8 substeps, self-contact, %d workers: "
-          "a "
-          "frame takes %.1f ms (body contact %.1f, all workers), %.0f searches, %.0f pairs; medians of %d; "
-          "hash "
-          "%016llx\n",
+          "a %s of %zu particles on a body of %zu vertices that walks, 8 substeps, self-contact, %d "
+          "workers:\n"
+          "  a frame takes %.1f ms (body contact %.1f, all workers), %.0f searches, %.0f pairs, stretch %.1f "
+          "%% "
+          "at 95 %%; medians of %d; hash %016llx\n",
           scene.name, frames.particles, frames.skin_vertices, workers, ms, median(frames.body_ms),
-          median(frames.searches), median(frames.pairs), kFrames,
+          median(frames.searches), median(frames.pairs), 1e2 * median(frames.stretch_p95), kFrames,
           static_cast<unsigned long long>(frames.hash));
       if (workers == 1) continue;
       char what[80];

@@ -5,11 +5,12 @@
 
 #include <bodice/geometry/types.hpp>
 
+#include <bench_support/visible.hpp>
+
 namespace bench {
 
 inline constexpr double kFrame_s = 1.0 / 60.0;
 inline constexpr int kFirstFrames = 10;  ///< a garment may take so long to come out of the body or a fold
-inline constexpr double kVisible_m = 0.5e-3;  ///< cloth that lies deeper in the skin shows it
 
 /// The mean of the heights of the positions, meters.
 inline double mean_height(const std::vector<bodice::geometry::Vec3>& positions) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <optional>
 
 #include "constraints/coarse.hpp"
 #include "fixtures.hpp"
@@ -29,8 +30,8 @@ struct StretchedStrip {
     }
   }
 
-  void solve(float friction) {
-    cloth::solve_coarse({}, {touching, normals, {}, friction}, state.coarse, state.particles);
+  void solve(float friction, std::span<const float> friction_share = {}) {
+    cloth::solve_coarse({}, {touching, normals, friction_share, friction}, state.coarse, state.particles);
   }
 
   /// Calls visit with the displacement of each node of the coarsest level and whether it touches.
@@ -106,9 +107,9 @@ TEST_CASE("coarse levels: no node is pulled into the body that it touches, and w
 }
 
 TEST_CASE("coarse levels: friction holds nodes that ties press on the body and pull along it") {
-  const auto largest_slip_m = [](float friction) {
+  const auto largest_slip_m = [](float friction, std::optional<float> share = {}) {
     StretchedStrip strip(Vec3(0, std::sqrt(0.75), -0.5));  // 60 degrees from the pull
-    strip.solve(friction);
+    strip.solve(friction, share ? std::vector(strip.touching.size(), *share) : std::vector<float>());
     const Vec3 along(0, 0.5, std::sqrt(0.75));
     double slip_m = 0.0;
     strip.for_each_node([&](const Vec3& displacement, bool touches) {
@@ -121,6 +122,7 @@ TEST_CASE("coarse levels: friction holds nodes that ties press on the body and p
   CHECK(with < 0.8 * without);
   // The coefficient exceeds the tangent of 60 degrees. What is left are nodes that are also pulled sideways.
   CHECK(largest_slip_m(2.0f) < 0.05 * without);
+  CHECK(largest_slip_m(1.0f, 0.5f) == with);  // stretched cloth has a share of its friction
 }
 
 TEST_CASE("coarse levels: a strap over a bar carries two panels of many more particles") {

@@ -21,6 +21,17 @@ constexpr double kRoomBelow = 0.01;
 /// have 0.01 at most, and three that walls beside webs had led outward 0.05 to 0.08.
 constexpr double kRoomAlone = 0.03;
 
+/// Doubts the armpit of a side that lies too low by this fraction of the stature, unless it is in doubt
+/// already.
+void doubt_height(std::size_t side, double low, const std::string& evidence, Anatomy& anatomy) {
+  const NamedFold& fold = kNamedFolds[side];
+  if (in_doubt(anatomy, fold)) return;
+  doubt_fold(
+      fold,
+      std::to_string(std::lround(1e3 * low)) + " thousandths of the stature lower than " + evidence + ".",
+      ", seen from all sides, shows it.", anatomy);
+}
+
 }  // namespace
 
 std::array<double, 2> armpits_too_low(const engine::Context& context, const geometry::TriMesh& skin,
@@ -39,27 +50,17 @@ std::array<double, 2> armpits_too_low(const engine::Context& context, const geom
 
 void doubt_low_armpits(const engine::Context& context, const geometry::TriMesh& skin, Anatomy& anatomy) {
   const std::array<double, 2> up = armpits_too_low(context, skin, anatomy);
-  for (std::size_t side = 0; side < up.size(); ++side) {
-    const NamedFold& fold = kNamedFolds[side];
-    if (!(up[side] > 0.0) || in_doubt(anatomy, fold)) continue;
-    doubt_fold(
-        fold,
-        std::to_string(std::lround(1e3 * up[side])) +
-            " thousandths of the stature lower than limbs, trunk and the room inside the body predict.",
-        ", seen from all sides, shows it.", anatomy);
-  }
+  for (std::size_t side = 0; side < up.size(); ++side)
+    if (up[side] > 0.0)
+      doubt_height(side, up[side], "limbs, trunk and the room inside the body predict", anatomy);
 }
 
 void doubt_armpits_by_room(const engine::Context& context, const geometry::TriMesh& skin, Anatomy& anatomy) {
   for (std::size_t side = 0; side < 2; ++side) {
-    const NamedFold& fold = kNamedFolds[side];
-    if (in_doubt(anatomy, fold)) continue;
-    const auto by_room = web_height(context, skin, anatomy, fold.id);
-    if (!by_room || *by_room < kRoomAlone) continue;
-    doubt_fold(fold,
-               std::to_string(std::lround(1e3 * *by_room)) +
-                   " thousandths of the stature lower than the room inside the body shows.",
-               ", seen from all sides, shows it.", anatomy);
+    if (in_doubt(anatomy, kNamedFolds[side])) continue;  // the room takes long to find
+    const auto by_room = web_height(context, skin, anatomy, kNamedFolds[side].id);
+    if (by_room && *by_room >= kRoomAlone)
+      doubt_height(side, *by_room, "the room inside the body shows", anatomy);
   }
 }
 

@@ -18,7 +18,8 @@ struct Extremities {
   std::array<geometry::Index, kExtremityCount> vertex{};
   /// Distance of every vertex from each extremity, meters.
   std::array<geodesic::Field, kExtremityCount> field;
-  double mahalanobis = 0.0;  ///< of their mutual distances from those of known bodies; below 1 is good
+  /// How far their mutual distances are from those of known bodies (Mahalanobis); below 1 is good.
+  double mahalanobis = 0.0;
   /// Difference of the two pairings of hands and feet, as a share of the body size.
   double side_margin = 0.0;
 

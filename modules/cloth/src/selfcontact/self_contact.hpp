@@ -58,7 +58,7 @@ struct SelfContact {
   bool crossings_known = false;  ///< whether `tangles` has all triangles that cross
   /// Number of substeps in this frame in which layers crossed although cloth came nearer to the body.
   int failed_yields = 0;
-  SelfContactReport report;  ///< of this frame
+  SelfContactReport report;  ///< what happened in this frame
 };
 
 /// The state for a welded garment at rest.
