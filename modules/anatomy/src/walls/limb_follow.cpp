@@ -1,9 +1,10 @@
 #include "walls/limb_follow.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 
 #include "walls/limb_kind.hpp"
+#include "walls/upper_arm.hpp"
 
 namespace bodice::inline v0_1::anatomy {
 namespace {
@@ -16,11 +17,12 @@ constexpr double kSame = 0.3;
 /// A limb goes on in what is at most so many times as thick or as thin.
 constexpr double kThicker = 2.0;
 /// An arm that is lost in the trunk goes on from below the wrist, and is a forearm or a hand up to there.
-constexpr double kWristsBelow = 0.5, kForearmFrom = 0.42, kForearmArea = 0.003, kLeastHandArea = 0.00004;
-/// It goes on up to the armpit, toward the middle of the shoulder with this radius.
-constexpr double kArmpit = 0.735, kShoulder = 0.79, kUpperArm = 0.027;
-
-using Point = std::array<double, 2>;
+/// With a bent elbow the hand begins in the air, and may do so higher.
+constexpr double kWristsBelow = 0.5, kBentWristsBelow = 0.6, kForearmFrom = 0.42, kForearmArea = 0.003,
+                 kLeastHandArea = 0.00004;
+/// It goes on up to the armpit. Bent arms are parted higher: copies of them lack fingers, so that the path
+/// from hand to foot over a lower armpit is as short as one over a weld.
+constexpr double kArmpit = 0.735, kBentArmpit = 0.76;
 
 class Follower {
  public:
@@ -28,6 +30,7 @@ class Follower {
 
   void run() {
     const auto count = static_cast<int>(limbs_.tracks.size());
+    for (int t = 0; t < count; ++t) join_end(t);
     for (int t = 0; t < count; ++t) bridge_gap(t);
     for (int t = 0; t < count; ++t)
       if (is_lost(limbs_[t])) follow_to_shoulder(t);
@@ -38,19 +41,36 @@ class Follower {
   int& of(std::size_t slice, std::size_t i) { return limbs_.of_node[slices_.node(slice, i)]; }
   int of(std::size_t slice, std::size_t i) const { return limbs_.of_node[slices_.node(slice, i)]; }
 
-  /// The middle of the nodes of a slice that belong.
-  template <class Belongs>
-  Point middle(std::size_t slice, Belongs belongs) const {
+  /// The middle of a track's nodes in a slice.
+  SlicePoint middle_of(std::size_t slice, int t) const {
     double u = 0.0, v = 0.0, count = 0.0;
     for (std::size_t i = 0; i < slices_.plane(); ++i)
-      if (belongs(of(slice, i))) u += slices_.u(i), v += slices_.v(i), ++count;
-    return count > 0.0 ? Point{u / count, v / count} : Point{0.0, 0.0};
+      if (of(slice, i) == t) u += slices_.u(i), v += slices_.v(i), ++count;
+    return count > 0.0 ? SlicePoint{u / count, v / count} : SlicePoint{0.0, 0.0};
   }
-  Point middle_of(std::size_t slice, int t) const {
-    return middle(slice, [t](int other) { return other == t; });
+
+  void rename(int t, int to) {
+    for (std::size_t k = limbs_[t].first; k <= limbs_[t].last; ++k)
+      for (std::size_t i = 0; i < slices_.plane(); ++i)
+        if (of(k, i) == t) of(k, i) = to;
+    limbs_[to].nodes += limbs_[t].nodes;
+    limbs_[t].renamed = to;
   }
-  double along(std::size_t i, const Point& from, const Point& direction) const {
-    return (slices_.u(i) - from[0]) * direction[0] + (slices_.v(i) - from[1]) * direction[1];
+
+  /// Whether a track may be a hand or a part of an arm.
+  bool is_thin(const Track& t) const {
+    return t.renamed == kNoTrack && mean_area(slices_, t) < kArmArea && !is_leg(slices_, t);
+  }
+
+  /// A thin track that begins in the air and ends in another thin one is a hand or a finger of that limb.
+  void join_end(int t) {
+    const Track& end = limbs_[t];
+    if (end.below != kNoTrack || end.above == kNoTrack || !is_thin(end) || !is_thin(limbs_[end.above]))
+      return;
+    Track& limb = limbs_[end.above];
+    limb.first = std::min(limb.first, end.first);
+    if (limb.below == t) limb.below = kNoTrack;
+    rename(t, end.above);
   }
 
   /// Nodes of a track in its last slice that are of another one in its first, over the fewer of both.
@@ -82,19 +102,16 @@ class Follower {
       if (const double same = shared(a, t); same > most) most = same, best = a;
     }
     if (best == kNoTrack) return;
-    for (std::size_t k = born.first; k <= born.last; ++k)
-      for (std::size_t i = 0; i < slices_.plane(); ++i)
-        if (of(k, i) == t) of(k, i) = best;
+    rename(t, best);
     const std::size_t low = limbs_[best].last, high = born.first;
     for (std::size_t k = low + 1; k < high; ++k) fill_gap(low, high, k, best);
-    limbs_[best].last = born.last, limbs_[best].above = born.above, limbs_[best].nodes += born.nodes;
-    limbs_[t].renamed = best;
+    limbs_[best].last = born.last, limbs_[best].above = born.above;
   }
 
   /// A slice between two that have a track gets the footprint of the nearer one, moved to where it would be,
   /// and a node wider.
   void fill_gap(std::size_t low, std::size_t high, std::size_t slice, int t) {
-    const Point from = middle_of(low, t), to = middle_of(high, t);
+    const SlicePoint from = middle_of(low, t), to = middle_of(high, t);
     const double share = static_cast<double>(slice - low) / static_cast<double>(high - low);
     const std::size_t source = share < 0.5 ? low : high;
     const double part = share < 0.5 ? share : share - 1.0;
@@ -116,36 +133,28 @@ class Follower {
   bool is_lost(const Track& t) const {
     const double area = mean_area(slices_, t);
     const double most = t.last < slices_.count(kArmpitFrom) ? kForearmArea : kArmArea;
-    const double least = t.below == kNoTrack ? kLeastHandArea : kLeastSplitArea;
+    const bool hand = t.below == kNoTrack;
+    const double least = hand ? kLeastHandArea : kLeastSplitArea;
     return t.renamed == kNoTrack && t.above != kNoTrack && !is_short(slices_, t) && !is_leg(slices_, t) &&
-           t.first <= slices_.count(kWristsBelow) && t.last >= slices_.count(kForearmFrom) &&
-           t.last < slices_.count(kArmpit) && area <= most && area >= least;
+           t.first <= slices_.count(hand ? kBentWristsBelow : kWristsBelow) &&
+           t.last >= slices_.count(kForearmFrom) && t.last < slices_.count(kArmpit) && area <= most &&
+           area >= least;
   }
 
+  /// A hand that begins above the wrists of hanging arms shows a bent elbow.
   void follow_to_shoulder(int t) {
-    Track& arm = limbs_[t];
-    const std::size_t top = slices_.count(kArmpit), shoulder = slices_.count(kShoulder);
-    const double radius = kUpperArm * static_cast<double>(slices_.count());
-    const Point at = middle_of(arm.last, t);
-    const Point center = middle(shoulder, [](int other) { return other != kNoTrack; });
-    const double du = at[0] - center[0], dv = at[1] - center[1], far = std::hypot(du, dv);
-    if (!(far > radius)) return;
-    const Point outward{du / far, dv / far};
-    double side = 0.0;
-    for (std::size_t i = 0; i < slices_.plane(); ++i)
-      if (of(shoulder, i) != kNoTrack) side = std::max(side, along(i, center, outward));
-    const Point end{center[0] + (side - radius) * outward[0], center[1] + (side - radius) * outward[1]};
-    for (std::size_t k = arm.last + 1; k <= top; ++k) {
-      const double share = static_cast<double>(k - arm.last) / static_cast<double>(shoulder - arm.last);
-      const Point here{at[0] + share * (end[0] - at[0]), at[1] + share * (end[1] - at[1])};
-      for (std::size_t i = 0; i < slices_.plane(); ++i) {
-        if (of(k, i) == kNoTrack || along(i, center, outward) < 0.0) continue;
-        const double inward = std::min(along(i, here, outward), 0.0);
-        if (std::hypot(inward, along(i, here, {-outward[1], outward[0]})) < radius) of(k, i) = t;
-      }
-    }
-    arm.nodes += kDisk * radius * radius * static_cast<double>(top - arm.last);
-    arm.last = top;
+    Track& limb = limbs_[t];
+    const bool bent = limb.first > slices_.count(kWristsBelow);
+    const std::size_t top = slices_.count(bent ? kBentArmpit : kArmpit);
+    const SlicePoint end = middle_of(limb.last, t);
+    const auto arm =
+        bent ? UpperArm::bent(slices_, limb.last + 1, top, end) : UpperArm::hanging(slices_, limb.last, end);
+    if (!arm) return;
+    for (std::size_t k = limb.last + 1; k <= top; ++k)
+      for (std::size_t i = 0; i < slices_.plane(); ++i)
+        if (of(k, i) != kNoTrack && arm->holds(k, i)) of(k, i) = t;
+    limb.nodes += kDisk * arm->radius() * arm->radius() * static_cast<double>(top - limb.last);
+    limb.last = top;
   }
 
   /// Nodes of `slice` become those of a track where the nearest node that the slice beside it decides is.
