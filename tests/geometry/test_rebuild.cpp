@@ -5,6 +5,7 @@
 
 #include <bodice/geometry/mesh_edges.hpp>
 #include <bodice/geometry/rebuild.hpp>
+#include <bodice/geometry/smallest_turn.hpp>
 #include <bodice_test/shapes.hpp>
 
 using namespace bodice::geometry;
@@ -40,7 +41,7 @@ TEST_CASE("parts that are thinner than a cell are rebuilt, and a floor that the 
   // A finger of 0.4 cells of radius that comes out of the ball by 8 cells.
   TriMesh finger = bodice_test::cylinder(0.02, 0.5, 12, 40);
   const Vec3 out = Vec3(0.3, 0.4, 1.0).normalized();
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitY(), out);
+  const Eigen::Quaterniond turn = smallest_turn(Vec3::UnitY(), out);
   for (Vec3& p : finger.positions) p = 1.15 * out + turn * p;
   TriMesh floor = bodice_test::sheet(6.0, 6.0, 60, 60);
   for (Vec3& p : floor.positions) p.y() -= 1.0;

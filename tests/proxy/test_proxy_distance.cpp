@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <bodice/engine/random.hpp>
+#include <bodice/geometry/smallest_turn.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
 
 using namespace bodice;
@@ -87,8 +88,7 @@ TEST_CASE("proxy distance: no nearest ellipsoid is missed, however thin and turn
     data.ellipsoids.resize(30);
     for (proxy::ProxyEllipsoid& e : data.ellipsoids) {
       e.shape.center = 0.3 * random_unit(random);
-      e.shape.axes =
-          Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), random_unit(random)).toRotationMatrix();
+      e.shape.axes = geometry::smallest_turn(Vec3::UnitZ(), random_unit(random)).toRotationMatrix();
       for (int j = 0; j < 3; ++j) e.shape.radii[j] = std::exp(random.uniform(std::log(1e-3), std::log(0.4)));
     }
     for (int i = 0; i < 100; ++i) {
