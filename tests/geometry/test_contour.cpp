@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numbers>
 
 #include <bodice/engine/random.hpp>
 #include <bodice/geometry/contour.hpp>
@@ -18,8 +19,6 @@ using geometry::TriMesh;
 using geometry::Vec3;
 
 namespace {
-
-constexpr double kPi = 3.141592653589793;
 
 Box unit_box() {
   return {Vec3::Constant(-1.0), Vec3::Constant(1.0)};
@@ -113,7 +112,7 @@ TEST_CASE("the contour of a ball is closed, wound outward and as large as the ba
   const TriMesh mesh = geometry::contour({}, grid);
   check_closed(mesh, 1);
   CHECK(worst_radius_error(mesh, 0.8) < 0.002);
-  CHECK(signed_volume(mesh) == doctest::Approx(4.0 / 3.0 * kPi * 0.512).epsilon(0.01));
+  CHECK(signed_volume(mesh) == doctest::Approx(4.0 / 3.0 * std::numbers::pi * 0.512).epsilon(0.01));
 }
 
 TEST_CASE("regions that touch along the diagonal of a cell stay apart, and the surface stays manifold") {
@@ -171,7 +170,7 @@ TEST_CASE(
   CHECK(worst < 0.002);
   CHECK(rebuilt.measured_share > 0.9);
   CHECK(rebuilt.measured_share < 1.0);
-  CHECK(signed_volume(rebuilt.mesh) == doctest::Approx(4.0 / 3.0 * kPi).epsilon(0.03));
+  CHECK(signed_volume(rebuilt.mesh) == doctest::Approx(4.0 / 3.0 * std::numbers::pi).epsilon(0.03));
 }
 
 TEST_CASE("a rebuilt surface has the same bits for any number of workers") {

@@ -8,16 +8,15 @@
 using namespace bodice::geometry;
 using namespace bodice_test;
 
-constexpr double kPi = std::numbers::pi;
-
 TEST_CASE("shapes have the area and volume of the solids they stand for, and face outward") {
   CHECK(signed_volume(box({0.5, 1.0, 2.0}, 3)) == doctest::Approx(8.0));
   CHECK(surface_area(box({0.5, 1.0, 2.0}, 3)) == doctest::Approx(2.0 * (2.0 + 4.0 + 8.0)));
-  CHECK(signed_volume(icosphere(2.0, 5)) == doctest::Approx(4.0 / 3.0 * kPi * 8.0).epsilon(0.002));
-  CHECK(surface_area(icosphere(2.0, 5)) == doctest::Approx(16.0 * kPi).epsilon(0.002));
-  CHECK(signed_volume(cylinder(0.5, 2.0, 200, 4)) == doctest::Approx(0.5 * kPi).epsilon(0.001));
+  CHECK(signed_volume(icosphere(2.0, 5)) ==
+        doctest::Approx(4.0 / 3.0 * std::numbers::pi * 8.0).epsilon(0.002));
+  CHECK(surface_area(icosphere(2.0, 5)) == doctest::Approx(16.0 * std::numbers::pi).epsilon(0.002));
+  CHECK(signed_volume(cylinder(0.5, 2.0, 200, 4)) == doctest::Approx(0.5 * std::numbers::pi).epsilon(0.001));
   CHECK(signed_volume(torus(1.0, 0.25, 200, 100)) ==
-        doctest::Approx(2.0 * kPi * kPi * 0.0625).epsilon(0.002));
+        doctest::Approx(2.0 * std::numbers::pi * std::numbers::pi * 0.0625).epsilon(0.002));
   CHECK(surface_area(sheet(2.0, 3.0, 5, 4)) == doctest::Approx(6.0));
 }
 

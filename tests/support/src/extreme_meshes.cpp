@@ -1,15 +1,12 @@
-#include <limits>
-
 #include <bodice_test/extremes.hpp>
 #include <bodice_test/shapes.hpp>
+
+#include "not_finite.hpp"
 
 namespace bodice_test {
 namespace {
 
 using bodice::geometry::Index;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 TriMesh ball() {
   return icosphere(1.0, 2);

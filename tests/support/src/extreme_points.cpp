@@ -5,14 +5,14 @@
 #include <bodice/engine/random.hpp>
 #include <bodice_test/extremes.hpp>
 
+#include "not_finite.hpp"
+
 namespace bodice_test {
 namespace {
 
 using bodice::engine::Random;
 using bodice::geometry::Box;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kTenKilometers = 1e4;
 
 using Points = std::vector<Vec3>;
