@@ -21,35 +21,35 @@ using nlohmann::json;
 namespace {
 
 /// A GLB file taken apart as the specification describes it.
-struct Glb {
+struct FileParts {
   json document;
   std::string buffer;
 };
 
-std::uint32_t word(const std::string& bytes, std::size_t at) {
+std::uint32_t checked_word(const std::string& bytes, std::size_t at) {
   REQUIRE(at + 4 <= bytes.size());
   std::uint32_t value;
   std::memcpy(&value, bytes.data() + at, 4);
   return value;
 }
 
-Glb open(const std::filesystem::path& file) {
+FileParts open(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  CHECK(word(bytes, 0) == 0x46546C67);
-  CHECK(word(bytes, 4) == 2);
-  CHECK(word(bytes, 8) == bytes.size());
-  const std::size_t text = word(bytes, 12);
+  CHECK(checked_word(bytes, 0) == 0x46546C67);
+  CHECK(checked_word(bytes, 4) == 2);
+  CHECK(checked_word(bytes, 8) == bytes.size());
+  const std::size_t text = checked_word(bytes, 12);
   CHECK(text % 4 == 0);
-  CHECK(word(bytes, 16) == 0x4E4F534A);
-  const std::size_t data = word(bytes, 20 + text);
+  CHECK(checked_word(bytes, 16) == 0x4E4F534A);
+  const std::size_t data = checked_word(bytes, 20 + text);
   CHECK(data % 4 == 0);
-  CHECK(word(bytes, 24 + text) == 0x004E4942);
+  CHECK(checked_word(bytes, 24 + text) == 0x004E4942);
   REQUIRE(28 + text + data == bytes.size());
   return {json::parse(bytes.substr(20, text)), bytes.substr(28 + text)};
 }
 
-std::vector<float> floats(const Glb& glb, std::size_t accessor) {
+std::vector<float> floats(const FileParts& glb, std::size_t accessor) {
   const json& a = glb.document["accessors"][accessor];
   const json& view = glb.document["bufferViews"][a["bufferView"].get<std::size_t>()];
   REQUIRE(a["componentType"] == 5126);
@@ -59,19 +59,19 @@ std::vector<float> floats(const Glb& glb, std::size_t accessor) {
   return values;
 }
 
-const json& node(const Glb& glb, std::string_view name) {
+const json& node(const FileParts& glb, std::string_view name) {
   for (const json& n : glb.document["nodes"])
     if (n.value("name", "") == name) return n;
   FAIL("no node " << name);
   return glb.document;
 }
 
-const json& primitive(const Glb& glb, std::string_view node_name) {
+const json& primitive(const FileParts& glb, std::string_view node_name) {
   return glb.document["meshes"][node(glb, node_name)["mesh"].get<std::size_t>()]["primitives"][0];
 }
 
 /// Checks alignment, extents and bounds of every accessor.
-void check_accessors(const Glb& glb) {
+void check_accessors(const FileParts& glb) {
   CHECK(glb.document["buffers"][0]["byteLength"] == glb.buffer.size());
   for (const json& view : glb.document["bufferViews"]) {
     CHECK(view["byteOffset"].get<std::size_t>() % 4 == 0);
@@ -93,14 +93,14 @@ void check_accessors(const Glb& glb) {
   }
 }
 
-void check_unit_normals(const Glb& glb, std::string_view node_name) {
+void check_unit_normals(const FileParts& glb, std::string_view node_name) {
   const std::vector<float> n =
       floats(glb, primitive(glb, node_name)["attributes"]["NORMAL"].get<std::size_t>());
   for (std::size_t i = 0; i < n.size(); i += 3)
     CHECK(n[i] * n[i] + n[i + 1] * n[i + 1] + n[i + 2] * n[i + 2] == doctest::Approx(1.0).epsilon(1e-5));
 }
 
-Glb written(const io::Scene& scene, const TempFolder& folder) {
+FileParts written(const io::Scene& scene, const TempFolder& folder) {
   const auto result = io::write_glb(scene, folder / "scene.glb");
   REQUIRE_MESSAGE(result.ok(), (result.ok() ? std::string() : result.error().sentence()));
   return open(folder / "scene.glb");
@@ -111,7 +111,7 @@ Glb written(const io::Scene& scene, const TempFolder& folder) {
 TEST_CASE("the GLB obeys the rules of the format, and has its named nodes as roots") {
   const TempFolder folder;
   const SceneFixture fixture;
-  const Glb glb = written(fixture.scene, folder);
+  const FileParts glb = written(fixture.scene, folder);
   check_accessors(glb);
   for (const char* name : {"body", "cloth"}) check_unit_normals(glb, name);
   std::vector<std::string> roots;
@@ -126,7 +126,7 @@ TEST_CASE("positions and ellipsoids are in the input's units and axes") {
   const TempFolder folder;
   const geometry::Frame frame{.meters_per_unit = 0.01, .up = geometry::Axis::kZ};
   const SceneFixture fixture(frame);
-  const Glb glb = written(fixture.scene, folder);
+  const FileParts glb = written(fixture.scene, folder);
   const std::vector<float> p =
       floats(glb, primitive(glb, "body")["attributes"]["POSITION"].get<std::size_t>());
   for (std::size_t v = 0; v < fixture.body.positions.size(); ++v) {
@@ -149,7 +149,7 @@ TEST_CASE("positions and ellipsoids are in the input's units and axes") {
 TEST_CASE("at the time of each kept frame the weight of its morph target is one and all others are zero") {
   const TempFolder folder;
   const SceneFixture fixture;
-  const Glb glb = written(fixture.scene, folder);
+  const FileParts glb = written(fixture.scene, folder);
   const io::GarmentTrack& track = fixture.scene.garments[0];
   const json& cloth = primitive(glb, "cloth");
   REQUIRE(cloth["targets"].size() == track.frames.size());
@@ -174,7 +174,7 @@ TEST_CASE("frames of a single time make no animation, and times that go back are
   SceneFixture fixture;
   io::GarmentTrack& track = fixture.scene.garments[0];
   track.time_s.assign(track.frames.size(), 0.25);
-  const Glb glb = written(fixture.scene, folder);
+  const FileParts glb = written(fixture.scene, folder);
   CHECK_FALSE(glb.document.contains("animations"));
   CHECK(primitive(glb, "cloth")["targets"].size() == track.frames.size());
   track.time_s[1] = 0.5;  // time goes back
@@ -205,7 +205,7 @@ TEST_CASE("a scene far from the origin keeps its digits in the node's translatio
   for (Vec3& p : fixture.body.positions) p += far;
   fixture.scene.proxy = nullptr;
   fixture.scene.garments.clear();
-  const Glb glb = written(fixture.scene, folder);
+  const FileParts glb = written(fixture.scene, folder);
   const json& t = node(glb, "body")["translation"];
   const std::vector<float> p =
       floats(glb, primitive(glb, "body")["attributes"]["POSITION"].get<std::size_t>());
@@ -253,7 +253,7 @@ TEST_CASE("the GLB's ellipsoids move with their proxy at the times of the garmen
   swapped.axes.col(0) = swapped.axes.col(1);
   swapped.axes.col(1) = -first;
   fixture.scene.proxy_frames = frames;
-  const Glb glb = written(fixture.scene, folder);
+  const FileParts glb = written(fixture.scene, folder);
   check_accessors(glb);
   const std::size_t moved = node(glb, "ellipsoids")["children"][0].get<std::size_t>();
   const json& animation = glb.document["animations"][0];
@@ -284,7 +284,7 @@ TEST_CASE("the colors of a garment are in the GLB in linear light, and its mater
   track.colors.assign(track.mesh.positions.size(), {1.0f, 0.5f, 0.0f});
   const TempFolder folder;
   REQUIRE(io::write_glb(fixture.scene, folder / "map.glb").ok());
-  const Glb glb = open(folder / "map.glb");
+  const FileParts glb = open(folder / "map.glb");
   check_accessors(glb);
   const json& cloth = primitive(glb, "cloth");
   const std::vector<float> colors = floats(glb, cloth["attributes"]["COLOR_0"].get<std::size_t>());

@@ -10,7 +10,7 @@ using namespace bodice;
 
 namespace {
 
-struct Known {
+struct KnownMesh {
   const char* file;
   const char* mesh;
   const char* unit;
@@ -19,7 +19,7 @@ struct Known {
   double volume_l;  // 0: unknown
 };
 
-constexpr Known kBodies[] = {
+constexpr KnownMesh kBodies[] = {
     {"bodies/f_avg_rest.obj", "f_avg_rest", "m", geometry::Axis::kY, 13380, 49.6},
     {"bodies/f_avg_tpose.obj", "f_avg_tpose", "m", geometry::Axis::kY, 13380, 50.1},
     {"bodies/f_avg_sit01.obj", "f_avg_sit01", "m", geometry::Axis::kY, 13380, 46.5},
@@ -40,7 +40,7 @@ constexpr Known kBodies[] = {
 }  // namespace
 
 TEST_CASE("real bodies are imported with their known unit, size and volume") {
-  for (const Known& known : kBodies) {
+  for (const KnownMesh& known : kBodies) {
     const auto file = bodice_test::data_file(known.file);
     if (!file) continue;
     CAPTURE(known.file);

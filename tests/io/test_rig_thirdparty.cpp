@@ -13,7 +13,7 @@ using namespace io_test;
 
 namespace {
 
-struct Known {
+struct KnownRig {
   const char* file;
   std::size_t joints, clips;  ///< 0 joints: no rig
 };
@@ -39,10 +39,10 @@ void check_plays(const io::RiggedBody& body) {
 }  // namespace
 
 TEST_CASE("third-party rigs play, and files without a skeleton are read as static bodies with one sentence") {
-  for (const Known& known :
-       {Known{"CesiumMan.glb", 21, 1}, Known{"Female_Dress.fbx", 43, 11}, Known{"greenman.glb", 12, 4},
-        Known{"posed_Female_Sitting.fbx", 0, 0}, Known{"posed_Female_Walking.fbx", 0, 0},
-        Known{"posed_Male_Standing.fbx", 0, 0}}) {
+  for (const KnownRig& known :
+       {KnownRig{"CesiumMan.glb", 21, 1}, KnownRig{"Female_Dress.fbx", 43, 11},
+        KnownRig{"greenman.glb", 12, 4}, KnownRig{"posed_Female_Sitting.fbx", 0, 0},
+        KnownRig{"posed_Female_Walking.fbx", 0, 0}, KnownRig{"posed_Male_Standing.fbx", 0, 0}}) {
     const auto file = bodice_test::data_file(std::string("rigs/thirdparty/") + known.file);
     if (!file) return;
     CAPTURE(known.file);
