@@ -16,9 +16,9 @@ namespace bodice::inline v0_1::io {
 namespace {
 
 /// Appends 32-bit words in one order of bytes.
-class Words {
+class WordWriter {
  public:
-  Words(std::endian order, std::string& bytes) : swap_(order != std::endian::native), bytes_(bytes) {}
+  WordWriter(std::endian order, std::string& bytes) : swap_(order != std::endian::native), bytes_(bytes) {}
 
   void add(std::uint32_t word) {
     const auto native = std::bit_cast<std::array<char, 4>>(word);
@@ -32,14 +32,14 @@ class Words {
 };
 
 /// The frames of a garment with the vertices of its mesh in the GLB.
-class Frames {
+class CachedFrames {
  public:
-  explicit Frames(const GarmentTrack& track) : track_(track), look_(look_mesh(track)) {}
+  explicit CachedFrames(const GarmentTrack& track) : track_(track), look_(look_mesh(track)) {}
 
   std::uint32_t vertices() const {
     return static_cast<std::uint32_t>(look_ ? look_->cloth_vertex.size() : track_.mesh.positions.size());
   }
-  void add_to(Words& words, const geometry::Frame& frame) const {
+  void add_to(WordWriter& words, const geometry::Frame& frame) const {
     for (const auto& points : track_.frames)
       for (const geometry::Vec3& p : look_ ? look_->spread(points) : points)
         for (const double v : frame.to_file(p)) words.add(static_cast<float>(v));
@@ -54,9 +54,9 @@ std::string pc2(const GarmentTrack& track, const geometry::Frame& frame) {
   constexpr float kFirstFrame = 0.0f, kFramesASample = 1.0f;
   constexpr std::uint32_t kVersion = 1;
   std::string bytes("POINTCACHE2\0", 12);
-  Words words(std::endian::little, bytes);
+  WordWriter words(std::endian::little, bytes);
   words.add(kVersion);
-  const Frames frames(track);
+  const CachedFrames frames(track);
   words.add(frames.vertices());
   words.add(kFirstFrame);
   words.add(kFramesASample);
@@ -67,8 +67,8 @@ std::string pc2(const GarmentTrack& track, const geometry::Frame& frame) {
 
 std::string mdd(const GarmentTrack& track, const geometry::Frame& frame) {
   std::string bytes;
-  Words words(std::endian::big, bytes);
-  const Frames frames(track);
+  WordWriter words(std::endian::big, bytes);
+  const CachedFrames frames(track);
   words.add(static_cast<std::uint32_t>(track.frames.size()));
   words.add(frames.vertices());
   for (std::size_t f = 0; f < track.frames.size(); ++f)

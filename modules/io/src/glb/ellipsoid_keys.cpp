@@ -26,7 +26,7 @@ std::vector<Mat3> box_rotations() {
   return found;
 }
 
-void append(const Eigen::Ref<const Eigen::VectorXd>& values, std::vector<float>& out) {
+void append_floats(const Eigen::Ref<const Eigen::VectorXd>& values, std::vector<float>& out) {
   for (const double value : values) out.push_back(static_cast<float>(value));
 }
 
@@ -49,9 +49,9 @@ void add_ellipsoid_keys(std::span<const geometry::Ellipsoid> shapes, std::size_t
     Eigen::Quaterniond turn = Eigen::Quaterniond(shape.axes).normalized();
     if (turn.dot(last) < 0.0) turn.coeffs() *= -1.0;
     last = turn;
-    append(shape.center, centers);
-    append(turn.coeffs(), turns);
-    append(shape.radii, radii);
+    append_floats(shape.center, centers);
+    append_floats(turn.coeffs(), turns);
+    append_floats(shape.radii, radii);
   }
   animation.add(node, "translation", times, glb.add_values(centers, "VEC3"), "LINEAR");
   animation.add(node, "rotation", times, glb.add_values(turns, "VEC4"), "LINEAR");

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "../far_from_origin.hpp"
 #include "../scene_check.hpp"
 
 namespace bodice::inline v0_1::io {
@@ -10,9 +11,6 @@ namespace {
 
 using geometry::Vec3;
 
-/// The distance from the origin, in diagonals, beyond which the nodes have the offset, so that floats keep
-/// their digits.
-constexpr double kFarDiagonals = 16.0;
 constexpr const char* kAxisNames[] = {"x", "y", "z"};
 
 }  // namespace
@@ -24,7 +22,7 @@ FileSpace::FileSpace(const Scene& scene) {
   const geometry::Box inside = scene_box(scene);
   box.extend(scene.frame.to_file(inside.low));
   box.extend(scene.frame.to_file(inside.high));
-  if (box.center().norm() > kFarDiagonals * box.size().norm()) origin_ = box.center().array().round();
+  if (is_far_from_origin(box)) origin_ = box.center().array().round();
 }
 
 std::vector<Vec3f> FileSpace::to_file(std::span<const Vec3> points) const {

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <string_view>
 
+#include "../glb_chunks.hpp"
+
 namespace bodice::inline v0_1::io {
 
 namespace {
@@ -17,7 +19,6 @@ static_assert(sizeof(Vec3f) == 12 && sizeof(geometry::Triangle) == 12);
 
 constexpr int kFloat = 5126, kUnsignedInt = 5125, kUnsignedShort = 5123, kShort = 5122, kByte = 5120;
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963, kNoTarget = 0;
-constexpr std::uint32_t kMagic = 0x46546C67, kVersion = 2, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 
 void append_u32(std::string& bytes, std::uint32_t value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
@@ -165,13 +166,13 @@ std::string GlbBuilder::finish() const {
 
   std::string file;
   file.reserve(length);
-  for (const std::uint32_t value : {kMagic, kVersion, static_cast<std::uint32_t>(length)})
+  for (const std::uint32_t value : {kGlbMagic, kGlbVersion, static_cast<std::uint32_t>(length)})
     append_u32(file, value);
   append_u32(file, static_cast<std::uint32_t>(text.size()));
-  append_u32(file, kJsonChunk);
+  append_u32(file, kGlbJsonChunk);
   file += text;
   append_u32(file, static_cast<std::uint32_t>(buffer_.size()));
-  append_u32(file, kBinaryChunk);
+  append_u32(file, kGlbBinaryChunk);
   file += buffer_;
   return file;
 }

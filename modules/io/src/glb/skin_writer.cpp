@@ -60,10 +60,10 @@ std::vector<float> rising_times(const std::vector<double>& time_s) {
   return times;
 }
 
-void append(const Vec3& value, bool, std::vector<float>& out) {
+void append_key(const Vec3& value, bool, std::vector<float>& out) {
   for (int k = 0; k < 3; ++k) out.push_back(static_cast<float>(value[k]));
 }
-void append(const Eigen::Quaterniond& value, bool is_tangent, std::vector<float>& out) {
+void append_key(const Eigen::Quaterniond& value, bool is_tangent, std::vector<float>& out) {
   const Eigen::Vector4d q = is_tangent ? value.coeffs() : value.normalized().coeffs();
   for (int k = 0; k < 4; ++k) out.push_back(static_cast<float>(q[k]));
 }
@@ -74,7 +74,7 @@ void add_keys(const rig::Keys<T>& keys, std::size_t node, const char* path, GlbB
   if (keys.empty()) return;
   std::vector<float> values;
   const bool cubic = keys.interpolation == Interpolation::kCubic;
-  for (std::size_t i = 0; i < keys.value.size(); ++i) append(keys.value[i], cubic && i % 3 != 1, values);
+  for (std::size_t i = 0; i < keys.value.size(); ++i) append_key(keys.value[i], cubic && i % 3 != 1, values);
   const std::size_t input = glb.add_times(rising_times(keys.time_s));
   const std::size_t output = glb.add_values(values, std::is_same_v<T, Vec3> ? "VEC3" : "VEC4");
   animation.add(node, path, input, output, name_of(keys.interpolation));

@@ -23,7 +23,7 @@ using geometry::Vec3;
 
 constexpr int kSphereSplits = 3;  // 512 triangles, shared by all ellipsoids
 constexpr float kEllipsoidAlpha = 0.55f;
-constexpr std::array<float, 3> kSkin = {0.80f, 0.76f, 0.73f};
+constexpr std::array<float, 3> kPlainSkin = {0.80f, 0.76f, 0.73f};
 class SceneWriter {
  public:
   explicit SceneWriter(const Scene& scene) : scene_(scene), space_(scene) {}
@@ -71,7 +71,7 @@ class SceneWriter {
       for (const body::Part each : part) colors.push_back(to_linear(part_color(each)));
       attributes["COLOR_0"] = glb_.add_vectors(colors);
     }
-    const Vec3f base = part.empty() ? to_linear(std::span(kSkin)) : Vec3f(Vec3f::Ones());
+    const Vec3f base = part.empty() ? to_linear(std::span(kPlainSkin)) : Vec3f(Vec3f::Ones());
     const Json primitive = {{"attributes", attributes},
                             {"indices", glb_.add_triangles(mesh.triangles)},
                             {"material", add_material(material, base, 1.0f, false, glb_)}};

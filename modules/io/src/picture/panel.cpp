@@ -9,7 +9,7 @@ namespace {
 constexpr int kSuper = 3;  // samples a pixel and axis
 constexpr float kMargin = 0.05f;
 constexpr float kInsideOfCloth = 0.55f;
-constexpr float kEdge = 0.35f;                // brightness of an edge
+constexpr float kEdgeBrightness = 0.35f;
 constexpr float kEdgeWidth = 0.5f * kSuper;   // half its thickness, samples
 constexpr float kGroundLine = 0.6f * kSuper;  // half its thickness, samples
 
@@ -137,7 +137,7 @@ class Panel {
       normal = -normal;
       color *= kInsideOfCloth;
     }
-    if (actor.edges && drawn.flat.distance_to_edges(w) < kEdgeWidth) color *= kEdge;
+    if (actor.edges && drawn.flat.distance_to_edges(w) < kEdgeWidth) color *= kEdgeBrightness;
     return lighting_.shade(mix(actor.positions), normal, view_.toward_eye, color);
   }
 

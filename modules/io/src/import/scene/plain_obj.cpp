@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string>
 
+#include "far_from_origin.hpp"
 #include "import/scene/plain_mesh.hpp"
 #include "import/scene/triangulate.hpp"
 #include "import/source/input_file.hpp"

@@ -5,13 +5,12 @@
 #include <cstdint>
 #include <cstring>
 
+#include "glb_chunks.hpp"
 #include "import/source/input_file.hpp"
 
 namespace bodice::inline v0_1::io {
 
 namespace {
-
-constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 
 std::uint32_t word(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -68,13 +67,13 @@ std::string decode_percent(std::string_view text) {
 }  // namespace
 
 GltfText split_glb(std::string file) {
-  if (word(file, 0) != kMagic) return {std::move(file), {}};
+  if (word(file, 0) != kGlbMagic) return {std::move(file), {}};
   GltfText text;
   for (std::size_t at = 12; at + 8 <= file.size();) {
     const std::size_t length = word(file, at);
     const std::uint32_t kind = word(file, at + 4);
-    if (kind == kJsonChunk && text.json.empty()) text.json = file.substr(at + 8, length);
-    if (kind == kBinaryChunk && text.binary.empty()) text.binary = file.substr(at + 8, length);
+    if (kind == kGlbJsonChunk && text.json.empty()) text.json = file.substr(at + 8, length);
+    if (kind == kGlbBinaryChunk && text.binary.empty()) text.binary = file.substr(at + 8, length);
     at += 8 + length;
   }
   return text;

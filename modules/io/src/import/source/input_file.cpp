@@ -8,14 +8,12 @@
 
 #include <bodice/engine/text.hpp>
 
+#include "far_from_origin.hpp"
 #include "import/source/file_format.hpp"
 
 namespace bodice::inline v0_1::io {
 
 namespace {
-
-/// The distance from the origin, in diagonals, beyond which floats lose over 1e-5 of the diagonal.
-constexpr double kFarDiagonals = 16.0;
 
 std::string_view skip_blanks(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
@@ -145,10 +143,6 @@ std::string read_text(const std::filesystem::path& file) {
   stream.read(text.data(), static_cast<std::streamsize>(size));
   text.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
   return text;
-}
-
-bool is_far_from_origin(const geometry::Box& box) {
-  return !box.empty() && box.center().norm() > kFarDiagonals * box.size().norm();
 }
 
 ColladaAsset parse_collada_asset(std::string_view document) {

@@ -25,9 +25,6 @@ struct ColladaAsset {
 };
 ColladaAsset parse_collada_asset(std::string_view document);
 
-/// Whether vertices lie so far from the origin for their size that single precision loses digits.
-bool is_far_from_origin(const geometry::Box& box);
-
 /// An OBJ text with its vertices moved to the origin, so that single precision keeps their digits.
 struct MovedObj {
   std::string text;
