@@ -74,7 +74,7 @@ SampleTest classify(const FaceSample& s, Float4 where, const FaceContact& f) {
 // date, and lists samples to push.
 void refresh_run(const collision::Collider& body, const FaceSubstep& substep, std::size_t run,
                  FaceContact& f) {
-  RunState& state = f.run[run];
+  RunState& state = f.travel.run[run];
   const auto [begin, end] = f.samples.of_run(f.elements, run);
   state.active = 0, state.next_m = kNever_m;
   SampleQuery query;
@@ -83,9 +83,9 @@ void refresh_run(const collision::Collider& body, const FaceSubstep& substep, st
     if (result.behind && move_to_own_side(body, f, sample))
       result = classify(sample, vector_of(sample.at), f);
     const float quiet_m = result.quiet_m - substep.remaining * shift_mismatch_m(f.samples.all[k], f);
-    f.until_m[k] = result.active || !(quiet_m > 0.0f) ? 0.0f : state.travel_m + quiet_m;
-    state.next_m = std::min(state.next_m, f.until_m[k]);
-    if (result.active) f.active[begin + state.active++] = k;
+    f.travel.until_m[k] = result.active || !(quiet_m > 0.0f) ? 0.0f : state.travel_m + quiet_m;
+    state.next_m = std::min(state.next_m, f.travel.until_m[k]);
+    if (result.active) f.travel.active[begin + state.active++] = k;
   };
   const auto run_query = [&] {
     const std::size_t count = query.count;
@@ -96,8 +96,8 @@ void refresh_run(const collision::Collider& body, const FaceSubstep& substep, st
     }
   };
   for (std::uint32_t k = begin; k < end; ++k) {
-    if (f.until_m[k] > state.travel_m) {
-      state.next_m = std::min(state.next_m, f.until_m[k]);
+    if (f.travel.until_m[k] > state.travel_m) {
+      state.next_m = std::min(state.next_m, f.travel.until_m[k]);
       continue;
     }
     const Float4 where = in_end_pose(f.samples.all[k], f.now, substep.remaining);
@@ -115,12 +115,12 @@ void refresh_run(const collision::Collider& body, const FaceSubstep& substep, st
 // Adds the substep's travel to all runs; returns the number of samples in runs that need a test.
 std::size_t travel(FaceContact& f) {
   std::size_t work = 0;
-  for (std::size_t run = 0; run < f.run.size(); ++run) {
+  for (std::size_t run = 0; run < f.travel.run.size(); ++run) {
     float longest = 0.0f;
     for (const std::uint32_t cluster : f.elements.clusters_of(run))
-      longest = std::max(longest, f.step_m[cluster]);
-    f.run[run].travel_m += kRounding * longest;
-    if (!is_due(f.run[run])) continue;
+      longest = std::max(longest, f.travel.step_m[cluster]);
+    f.travel.run[run].travel_m += kRounding * longest;
+    if (!is_due(f.travel.run[run])) continue;
     const auto [begin, end] = f.samples.of_run(f.elements, run);
     work += end - begin;
   }
@@ -131,8 +131,8 @@ std::size_t travel(FaceContact& f) {
 template <class Visit>
 void for_each_active(const FaceContact& f, std::size_t group, Visit&& visit) {
   for (std::uint32_t run = f.elements.group_run[group]; run < f.elements.group_run[group + 1]; ++run) {
-    const std::uint32_t* const active = f.active.data() + f.samples.of_run(f.elements, run).begin;
-    for (std::uint32_t k = 0; k < f.run[run].active; ++k) visit(f.samples.all[active[k]]);
+    const std::uint32_t* const active = f.travel.active.data() + f.samples.of_run(f.elements, run).begin;
+    for (std::uint32_t k = 0; k < f.travel.run[run].active; ++k) visit(f.samples.all[active[k]]);
   }
 }
 
@@ -167,10 +167,10 @@ FaceContact make_face_contact(const geometry::TriMesh& mesh, const Topology& top
   const std::size_t at_rest = count_at_rest(f.elements, particles, f.rules.spacing_m);
   const std::size_t most = kRefined * at_rest + kMostAnElement * f.elements.all.size();
   f.samples = make_face_samples(f.elements, particles.count(), most);
-  f.active.resize(most), f.until_m.resize(most);
-  f.run.resize(f.elements.runs()), f.group_pushed.resize(f.elements.groups());
+  f.travel.active.resize(most), f.travel.until_m.resize(most);
+  f.travel.run.resize(f.elements.runs()), f.group_pushed.resize(f.elements.groups());
   f.nearest.resize(particles.count()), f.now.resize(particles.count()), f.unpushed.resize(particles.count());
-  f.step_m.resize(engine::block_count(particles.count(), kTravelCluster));
+  f.travel.step_m.resize(engine::block_count(particles.count(), kTravelCluster));
   return f;
 }
 
@@ -196,8 +196,8 @@ void begin_face_frame(const engine::Context& context, const ContactFrame& frame,
   f.motion = motion;
   place_samples(context, {*frame.body, f.nearest, motion}, f.rules, f.elements, p, f.samples);
   f.on = !f.samples.all.empty();
-  std::ranges::fill(f.run, RunState{});
-  std::fill_n(f.until_m.begin(), f.samples.all.size(), 0.0f);
+  std::ranges::fill(f.travel.run, RunState{});
+  std::fill_n(f.travel.until_m.begin(), f.samples.all.size(), 0.0f);
   for (std::size_t i = 0; i < p.count(); ++i) f.unpushed[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
 }
 
@@ -212,7 +212,7 @@ void begin_face_substep(const FaceSubstep& substep, std::size_t begin, std::size
       longest2 = std::max(longest2, dot(path, path));
       store(f.unpushed[i], xyz(at)), store(f.now[i], at);
     }
-    f.step_m[from / kTravelCluster] = std::sqrt(longest2);
+    f.travel.step_m[from / kTravelCluster] = std::sqrt(longest2);
   }
 }
 
@@ -226,9 +226,9 @@ void push_faces_out(const engine::Context& context, const collision::Collider& b
   if (work == 0) return;
   engine::Context how = context;
   if (work < kWorthTasks) how.executor = &engine::inline_executor();
-  engine::parallel_for(how, f.run.size(), kRunGrain, [&](std::size_t begin, std::size_t end) {
+  engine::parallel_for(how, f.travel.run.size(), kRunGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t run = begin; run < end; ++run)
-      if (is_due(f.run[run])) refresh_run(body, substep, run, f);
+      if (is_due(f.travel.run[run])) refresh_run(body, substep, run, f);
   });
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     const std::uint64_t pushed = push_all(how, substep, p, f);

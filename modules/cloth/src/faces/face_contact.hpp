@@ -24,6 +24,16 @@ struct RunState {
   std::uint32_t active = 0;  ///< samples that may be too near
 };
 
+/// How far samples have traveled since the frame began, which decides when they are tested again.
+struct SampleTravel {
+  /// #clusters: longest path of a particle since the last substep, relative to the body.
+  std::vector<float> step_m;
+  std::vector<RunState> run;   ///< #runs
+  std::vector<float> until_m;  ///< #samples: while its run's travel is less, a sample needs no test
+  /// For each run, from the index of its first sample on: its samples that may be too near.
+  std::vector<std::uint32_t> active;
+};
+
 /// The contact of faces with the body.
 struct FaceContact {
   Elements elements;
@@ -33,12 +43,7 @@ struct FaceContact {
   /// #P: positions of this substep, which pushes change; their weights are inverse masses.
   std::vector<Point> now;
   std::vector<Point> unpushed;  ///< #P: positions before the pushes of the last substep
-  /// #clusters: longest path of a particle since the last substep, relative to the body.
-  std::vector<float> step_m;
-  std::vector<RunState> run;   ///< #runs
-  std::vector<float> until_m;  ///< #samples: while its run's travel is less, a sample needs no test
-  /// For each run, from the index of its first sample on: its samples that may be too near.
-  std::vector<std::uint32_t> active;
+  SampleTravel travel;
   std::vector<std::uint64_t> group_pushed;  ///< #groups: samples that the last sweep pushed
   std::uint64_t contacts = 0;               ///< samples that were pushed in this frame
   MotionNearParticles motion;

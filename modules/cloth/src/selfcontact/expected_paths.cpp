@@ -21,18 +21,18 @@ constexpr float kNoDrift2 = 1e-20f;
 }  // namespace
 
 Expectation::Expectation(float since_s, float most, const SelfContact& s)
-    : self(s), share(std::min(1.0f, since_s / s.expected_s)), most_m(most) {}
+    : self(s), share(std::min(1.0f, since_s / s.paths.duration_s)), most_m(most) {}
 
 bool measure_deviations(const engine::Context& context, std::span<const Point> at, float since_s,
                         float most_m, SelfContact& s) {
   const Expectation expected(since_s, most_m, s);
   std::atomic<bool> far{false};
-  engine::parallel_for(context, s.search_start.size(), kParticleGrain,
+  engine::parallel_for(context, s.paths.start.size(), kParticleGrain,
                        [&](std::size_t begin, std::size_t end) {
                          bool any_far = false;
                          for (std::size_t i = begin; i < end; ++i) {
-                           s.deviation2[i] = expected.deviation2(at, i);
-                           any_far = any_far || !expected.allows(s.deviation2[i], i);
+                           s.paths.deviation2[i] = expected.deviation2(at, i);
+                           any_far = any_far || !expected.allows(s.paths.deviation2[i], i);
                          }
                          if (any_far) far.store(true, std::memory_order_relaxed);
                        });
@@ -45,30 +45,31 @@ bool measure_deviations_of(std::span<const std::uint32_t> leaves, std::span<cons
   bool any_far = false;
   for (const std::uint32_t leaf : leaves)
     for (const Index i : s.mesh.particles_of(leaf)) {
-      s.deviation2[i] = expected.deviation2(at, i);
-      any_far = any_far || !expected.allows(s.deviation2[i], i);
+      s.paths.deviation2[i] = expected.deviation2(at, i);
+      any_far = any_far || !expected.allows(s.paths.deviation2[i], i);
     }
   return any_far;
 }
 
 float largest_deviation(std::size_t leaf, const SelfContact& s) {
   float deviation2 = 0.0f;
-  for (const Index i : s.mesh.particles_of(leaf)) deviation2 = std::max(deviation2, s.deviation2[i]);
+  for (const Index i : s.mesh.particles_of(leaf)) deviation2 = std::max(deviation2, s.paths.deviation2[i]);
   return std::sqrt(deviation2);
 }
 
 void expect_paths(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,
                   float most_m, SelfContact& s) {
-  s.expected_s = std::max(substep.length_s, substep.frame_s), s.since_s = 0.0f;
-  const float share = substep.length_s / s.expected_s;
+  s.paths.duration_s = std::max(substep.length_s, substep.frame_s), s.paths.since_s = 0.0f;
+  const float share = substep.length_s / s.paths.duration_s;
   engine::parallel_for(
-      context, s.search_start.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+      context, s.paths.start.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
           const Float4 path = xyz(load(at[i]) - load(s.before[i])),
-                       expected = xyz(s.expected_s * load(s.drift[i])), off = path - share * expected;
-          s.search_start[i] = s.before[i], s.allowance_m[i] = 0.0f;
+                       expected = xyz(s.paths.duration_s * load(s.paths.drift[i])),
+                       off = path - share * expected;
+          s.paths.start[i] = s.before[i], s.paths.allowance_m[i] = 0.0f;
           const float kept = std::min(1.0f, most_m / std::sqrt(dot(off, off) + kTinyLength2));
-          store(s.expected_move[i], expected + (1.0f - kept) / share * off);
+          store(s.paths.move[i], expected + (1.0f - kept) / share * off);
         }
       });
 }
@@ -79,7 +80,7 @@ void expect_contact_positions(const engine::Context& context, const SelfSubstep&
     for (std::size_t i = begin; i < end; ++i) {
       s.now[i] = p.point[i];
       if (!substep.touching[i]) continue;
-      const Float4 expected = xyz(load(s.before[i]) + substep.length_s * load(s.drift[i]));
+      const Float4 expected = xyz(load(s.before[i]) + substep.length_s * load(s.paths.drift[i]));
       const Float4 off = xyz(load(p.point[i])) - expected;
       const float length_m = std::sqrt(dot(off, off));
       if (length_m > most_m) store(s.now[i], expected + (most_m / length_m) * off);
@@ -88,13 +89,14 @@ void expect_contact_positions(const engine::Context& context, const SelfSubstep&
 }
 
 void update_drift(const engine::Context& context, float substep_s, SelfContact& s) {
-  engine::parallel_for(context, s.drift.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Float4 drift = load(s.drift[i]), now = (load(s.now[i]) - load(s.before[i])) / substep_s;
-      const Float4 smoothed = drift + kSmoothing * (now - drift);
-      store(s.drift[i], dot(smoothed, smoothed) < kNoDrift2 ? splat(0.0f) : smoothed);
-    }
-  });
+  engine::parallel_for(
+      context, s.paths.drift.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const Float4 drift = load(s.paths.drift[i]), now = (load(s.now[i]) - load(s.before[i])) / substep_s;
+          const Float4 smoothed = drift + kSmoothing * (now - drift);
+          store(s.paths.drift[i], dot(smoothed, smoothed) < kNoDrift2 ? splat(0.0f) : smoothed);
+        }
+      });
 }
 
 }  // namespace bodice::cloth

@@ -12,22 +12,22 @@ struct Expectation {
   float share, most_m;
 
   /// The expectation `since_s` after the search. A particle may deviate by `most_m` plus its own allowance,
-  /// SelfContact::allowance_m.
+  /// ExpectedPaths::allowance_m.
   Expectation(float since_s, float most_m, const SelfContact& self);
 
   /// The squared deviation of particle i at `at`, square meters.
   float deviation2(std::span<const Point> at, std::size_t i) const {
-    const Float4 off = xyz(load(at[i]) - load(self.search_start[i]) - share * load(self.expected_move[i]));
+    const Float4 off = xyz(load(at[i]) - load(self.paths.start[i]) - share * load(self.paths.move[i]));
     return dot(off, off);
   }
   /// Whether particle i may deviate by this squared distance.
   bool allows(float deviation2, std::size_t i) const {
-    const float allowed_m = most_m + self.allowance_m[i];
+    const float allowed_m = most_m + self.paths.allowance_m[i];
     return deviation2 <= allowed_m * allowed_m;
   }
 };
 
-/// Stores the deviations of the particles at `at`, `since_s` after the search, in SelfContact::deviation2.
+/// Stores the deviations of the particles at `at`, `since_s` after the search, in ExpectedPaths::deviation2.
 /// Returns whether any exceeds what Expectation allows.
 bool measure_deviations(const engine::Context& context, std::span<const Point> at, float since_s,
                         float most_m, SelfContact& self);
@@ -52,7 +52,7 @@ void expect_paths(const engine::Context& context, const SelfSubstep& substep, st
 void expect_contact_positions(const engine::Context& context, const SelfSubstep& substep, float most_m,
                               const Particles& particles, SelfContact& self);
 
-/// Updates the smoothed velocities (SelfContact::drift) by those of a substep that ended at `now`.
+/// Updates the smoothed velocities (ExpectedPaths::drift) by those of a substep that ended at `now`.
 void update_drift(const engine::Context& context, float substep_s, SelfContact& self);
 
 }  // namespace bodice::cloth

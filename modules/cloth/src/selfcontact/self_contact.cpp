@@ -27,15 +27,14 @@ constexpr float kRecovery_m_s = 0.1f;
 // The speed at which triangles that cross are drawn apart.
 constexpr float kUntangle_m_s = 1.0f;
 
-// The deviations, in spare distances, that particles may have before and after contacts moved them. Two
-// particles may each use half of the spare distance against each other.
-constexpr float kUsedBefore = 0.4f, kUsedAfter = 0.499f;
-// The largest deviations that are expected of particles on the body. On a moving body, which brings layers
-// together, a smaller one would find pairs too late.
-constexpr float kUsedStill = 0.2f, kUsedMoving = 1.0f;
-
-// The largest share of its allowed deviation that a particle may have used right after a search.
-constexpr float kOnPath = 0.9f;
+// The deviations that particles may have before and after contacts move them, as shares of the spare
+// distance. They stay below a half, because two particles may come nearer to each other by twice as much.
+constexpr float kAllowedBeforeContact = 0.4f, kAllowedAfterContact = 0.499f;
+// The largest deviations that contact with a still and with a moving body is expected to cause, as shares of
+// the spare distance. A moving body brings layers together, and a smaller share would find pairs too late.
+constexpr float kExpectedOnStillBody = 0.2f, kExpectedOnMovingBody = 1.0f;
+// The share of the allowed deviation that a new expected path may leave a particle with.
+constexpr float kAllowedByNewPath = 0.9f;
 
 // Pairs that would cross are pushed apart in at most kHeldRounds rounds of kHeldSweeps sweeps each.
 constexpr int kHeldRounds = 6, kHeldSweeps = 4;
@@ -45,9 +44,9 @@ constexpr int kFirmRounds = 4, kMostRounds = 16;
 // The number of times that guards are set for sinking particles before layers may cross.
 constexpr int kGuardings = 4;
 
-// The share of the thickness that particles keep from the body where layers would otherwise cross. With a
-// share of 0.2, more skin shows between coarse triangles; with 0.5, more layers cross.
-constexpr float kYieldedShare = 0.3f;
+// The distance from the body down to which particles yield where layers would otherwise cross, as a share of
+// the thickness. With a share of 0.2, more skin shows between coarse triangles; with 0.5, more layers cross.
+constexpr float kThicknessAfterYield = 0.3f;
 
 constexpr std::size_t kMovesATask = 256;
 
@@ -59,9 +58,9 @@ constexpr int kFailedYields = 2;
 
 // Lists the groups on the expected paths, and the triangles that cross where these are not known.
 void search(const engine::Context& context, SelfContact& s) {
-  refit(context, s.mesh, {s.search_start, s.expected_move, {}}, s.tree);
+  refit(context, s.mesh, {s.paths.start, s.paths.move, {}}, s.tree);
   if (!s.crossings_known) {
-    find_tangles(context, s.mesh, s.tree, s.search_start, s.tasks, s.tangles);
+    find_tangles(context, s.mesh, s.tree, s.paths.start, s.tasks, s.tangles);
     loosen(s.mesh, s.tangles, s.loose);
   }
   s.searched = s.tree_has_sweeps = s.crossings_known = true;
@@ -73,11 +72,11 @@ void search(const engine::Context& context, SelfContact& s) {
 
 // Lists groups anew where those of the last search do not cover particles at `at`.
 void update_groups(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,
-                   float used, SelfContact& s) {
-  const float most_m = used * s.spare_m, since_s = s.since_s + substep.length_s;
+                   float allowed, SelfContact& s) {
+  const float most_m = allowed * s.spare_m, since_s = s.paths.since_s + substep.length_s;
   if (s.searched && !measure_deviations(context, at, since_s, most_m, s)) return;
   if (s.searched && list_groups_of_strayed(since_s, most_m, s)) return;
-  expect_paths(context, substep, at, kOnPath * most_m, s);
+  expect_paths(context, substep, at, kAllowedByNewPath * most_m, s);
   search(context, s);
   measure_deviations(context, at, substep.length_s, most_m, s);
 }
@@ -111,7 +110,7 @@ PairPush push_of(const SelfSubstep& substep, const SelfContact& s) {
 // The number of pairs that would cross on the particles' paths to `now`.
 std::size_t count_crossing(const engine::Context& context, const SelfSubstep& substep, Room room,
                            SelfContact& s) {
-  update_groups(context, substep, s.now, kUsedAfter, s);
+  update_groups(context, substep, s.now, kAllowedAfterContact, s);
   find_moves(context, s);
   forget_moved(s.moved_leaves);
   return find_crossing(context, source_of(s), {s.now, s.zones.guard, s.zones.parent, room}, s.tasks);
@@ -120,8 +119,8 @@ std::size_t count_crossing(const engine::Context& context, const SelfSubstep& su
 // The same, where only pairs of leaves that moved since the last count can have changed.
 std::size_t count_crossing_again(const engine::Context& context, const SelfSubstep& substep, Room room,
                                  SelfContact& s) {
-  const float since_s = s.since_s + substep.length_s;
-  if (measure_deviations_of(s.moved_leaves.leaves, s.now, since_s, kUsedAfter * s.spare_m, s))
+  const float since_s = s.paths.since_s + substep.length_s;
+  if (measure_deviations_of(s.moved_leaves.leaves, s.now, since_s, kAllowedAfterContact * s.spare_m, s))
     return count_crossing(context, substep, room, s);
   for (const std::uint32_t leaf : s.moved_leaves.leaves) find_move(leaf, s);
   const std::size_t count = find_crossing_again(
@@ -205,7 +204,7 @@ void separate(const engine::Context& context, const SelfSubstep& substep, Resolv
   if (separate_all(context, substep, body, p, s) || s.failed_yields >= kFailedYields) return;
   std::ranges::copy(s.zones.resolved, s.now.begin());
   count_crossing(context, substep, Room::kAmple, s);
-  body.least_m = kYieldedShare * body.thickness_m;
+  body.least_m = kThicknessAfterYield * body.thickness_m;
   if (!separate_all(context, substep, body, p, s)) ++s.failed_yields;
 }
 
@@ -236,8 +235,8 @@ SelfContact make_self_contact(const geometry::TriMesh& mesh, const Particles& p,
   s.moves.resize(s.mesh.leaves()), s.deviation_m.resize(s.mesh.leaves()), s.folded.resize(s.mesh.leaves());
   s.moved_leaves = make_moved_leaves(s.mesh, s.tasks.size());
   s.strayed = make_strayed_leaves(p.count(), s.mesh);
-  s.moved.reserve(p.count()), s.allowance_m.resize(p.count()), s.deviation2.resize(p.count());
-  for (auto* points : {&s.rest, &s.before, &s.now, &s.search_start, &s.expected_move, &s.drift})
+  s.moved.reserve(p.count()), s.paths.allowance_m.resize(p.count()), s.paths.deviation2.resize(p.count());
+  for (auto* points : {&s.rest, &s.before, &s.now, &s.paths.start, &s.paths.move, &s.paths.drift})
     points->resize(p.count());
   for (std::size_t i = 0; i < p.count(); ++i) s.rest[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
   return s;
@@ -273,9 +272,10 @@ SelfContactReport report_self_contact(const SelfContact& s) {
 }
 
 void push_apart(const engine::Context& context, const SelfSubstep& substep, SelfContact& s, Particles& p) {
-  expect_contact_positions(context, substep, (substep.still_body ? kUsedStill : kUsedMoving) * s.spare_m, p,
+  expect_contact_positions(context, substep,
+                           (substep.still_body ? kExpectedOnStillBody : kExpectedOnMovingBody) * s.spare_m, p,
                            s);
-  update_groups(context, substep, s.now, kUsedBefore, s);
+  update_groups(context, substep, s.now, kAllowedBeforeContact, s);
   find_moves(context, s);
   refresh_contacts(context, source_of(s), s.tasks);
   push_pairs_apart(context, s.mesh, push_of(substep, s), s.tasks, p.point);
@@ -292,7 +292,7 @@ void hold_apart(const engine::Context& context, const SelfSubstep& substep, cons
   }
   if (add_pressed(s.mesh, s.tasks, s.now, s.tangles)) loosen(s.mesh, s.tangles, s.loose);
   end_groups(context, s.tasks, s.folded);
-  s.since_s += substep.length_s;
+  s.paths.since_s += substep.length_s;
   update_drift(context, substep.length_s, s);
   std::swap(s.before, s.now);
 }

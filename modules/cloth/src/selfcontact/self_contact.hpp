@@ -25,6 +25,16 @@
 
 namespace bodice::inline v0_1::cloth {
 
+/// The straight paths that a search expects of particles, and how far particles have left them.
+struct ExpectedPaths {
+  std::vector<Point> start, move;  ///< #P: positions at the search, and the displacements over `duration_s`
+  float duration_s = 0.0f;
+  float since_s = 0.0f;            ///< time since the search
+  std::vector<float> allowance_m;  ///< #P: the deviation that a particle may have beyond that of all others
+  std::vector<float> deviation2;   ///< #P: squared deviations, square meters
+  std::vector<Point> drift;  ///< #P: smoothed velocities, which the next search expects, meters a second
+};
+
 /// The state of self-contact.
 struct SelfContact {
   float gap_m = 0.0f;    ///< distance that layers keep, unless they were closer at rest
@@ -39,19 +49,12 @@ struct SelfContact {
   std::vector<Point> before, now;  ///< #P: positions when the substep began, and at its end
   MovedLeaves moved_leaves;        ///< leaves with particles that moved since crossings were last counted
   std::vector<Index> moved;        ///< particles that were moved after contact with the body
-  /// #P: positions at the last search, and the displacements that it expects.
-  std::vector<Point> search_start, expected_move;
-  /// #P: a particle's allowance: the deviation it may have beyond that of all others.
-  std::vector<float> allowance_m;
+  ExpectedPaths paths;             ///< of the last search
   StrayedLeaves strayed;
-  std::vector<Point> drift;          ///< #P: smoothed velocities, meters a second
   std::vector<LeafMove> moves;       ///< #leaves
-  std::vector<float> deviation2;     ///< #P: squared deviations of particles from their expected paths
   std::vector<float> deviation_m;    ///< #leaves: the largest deviation of its particles
   std::vector<std::uint8_t> folded;  ///< as PairSearch::folded, when the substep began
   Zones zones;
-  /// Time that the expected displacements take; time since the search.
-  float expected_s = 0.0f, since_s = 0.0f;
   Vec3 origin = Vec3::Zero();    ///< origin of the particles' local frame at the last search
   bool searched = false;         ///< whether the lists of the last search may still be used
   bool tree_has_sweeps = false;  ///< whether the tree still has the sweeps of that search

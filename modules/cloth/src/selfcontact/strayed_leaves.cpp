@@ -89,15 +89,16 @@ StrayedLeaves make_strayed_leaves(std::size_t particles, const ContactMesh& mesh
 bool list_groups_of_strayed(float since_s, float most_m, SelfContact& self) {
   StrayedLeaves& s = self.strayed;
   const Expectation expected(since_s, most_m, self);
-  if (!self.tree_has_sweeps || !list_strayed_particles(expected, self.deviation2, s.particles)) return false;
+  if (!self.tree_has_sweeps || !list_strayed_particles(expected, self.paths.deviation2, s.particles))
+    return false;
   // Allowances are whole spare distances, because a particle that strayed may soon stray a little farther.
   for (const Index i : s.particles) {
-    const float excess_m = std::sqrt(self.deviation2[i]) - most_m;
+    const float excess_m = std::sqrt(self.paths.deviation2[i]) - most_m;
     if (!(excess_m <= kMostAllowance * self.spare_m)) return false;
-    self.allowance_m[i] = self.spare_m * std::ceil(excess_m / self.spare_m);
+    self.paths.allowance_m[i] = self.spare_m * std::ceil(excess_m / self.spare_m);
   }
   find_leaves(self.mesh, s);
-  const SweptPoints points{self.search_start, self.expected_move, self.allowance_m};
+  const SweptPoints points{self.paths.start, self.paths.move, self.paths.allowance_m};
   for (const std::uint32_t leaf : s.leaves) refit_leaf(self.mesh, leaf, points, self.tree);
   list_missing_groups(self.tree, self.gap_m + self.spare_m, self.tasks, s);
   for (auto first = s.wanted.begin(); first != s.wanted.end();) {

@@ -34,7 +34,7 @@ struct StrayedLeaves {
 StrayedLeaves make_strayed_leaves(std::size_t particles, const ContactMesh& mesh);
 
 /// Lists the groups that the leaves of strayed particles lack, and raises these particles' allowance
-/// (SelfContact::allowance_m) to their deviation. A particle strayed if its deviation, from
+/// (ExpectedPaths::allowance_m) to their deviation. A particle strayed if its deviation, from
 /// measure_deviations(), exceeds `most_m` plus its allowance. Returns false and lists nothing where a search
 /// of all groups is due instead: many particles strayed, one is very far, or the tree lacks the sweeps of the
 /// last search. Cost: O(#P), and O(log #leaves) for each leaf that strayed and each group near it.
