@@ -18,7 +18,7 @@ constexpr double kPlane = 0.01;
 /// A plane is a sole if its normal points down by at least this cosine.
 constexpr double kSole = 0.9;
 /// The number of triangles, evenly spread over the mesh, by which its planes are found.
-constexpr std::size_t kEnough = 100000;
+constexpr std::size_t kPlaneTriangles = 100000;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ double flat_share(const geometry::TriMesh& skin, const Vec3& up) {
   const double root = std::sqrt(surface_area(skin));
   if (!(root > 0.0)) return 0.0;
   const Vec3 middle = geometry::bounding_box(skin.positions).center();
-  const std::size_t step = 1 + skin.triangles.size() / kEnough;
+  const std::size_t step = 1 + skin.triangles.size() / kPlaneTriangles;
   std::map<std::array<long, 4>, double> area_of_plane;
   double area = 0.0, flat = 0.0;
   for (std::size_t t = 0; t < skin.triangles.size(); t += step) {

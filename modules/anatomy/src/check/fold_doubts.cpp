@@ -21,25 +21,25 @@ constexpr double kLooksRight = 0.85, kCrotchRoom = 1.5;
 
 /// Webs at both armpits of such a skin look unlike folds, by the least product of the three confidences, and
 /// lie too low alike: one of them by the first share of what is doubtful, the other by the second.
-constexpr double kFoldsFit = 0.6, kOneHidden = 1.3, kOtherHidden = 0.6;
+constexpr double kWebsFit = 0.6, kOneHidden = 1.3, kOtherHidden = 0.6;
 
 /// The confidence of a neck below which it is in doubt where limbs were cut: a web may reach the shoulder.
 constexpr double kNeckSeen = 0.75;
 
-const body::Landmark& at(const Anatomy& anatomy, body::LandmarkId id) {
+const body::Landmark& landmark_of(const Anatomy& anatomy, body::LandmarkId id) {
   return anatomy.landmarks[static_cast<std::size_t>(id)];
 }
 
 /// Whether webs may hide both armpits of a skin that is as it was given.
 bool hides_armpits(const Anatomy& anatomy, const std::array<double, 3>& below) {
   double fit = 1.0;
-  for (const NamedFold& fold : kNamedFolds) fit *= at(anatomy, fold.id).confidence;
+  for (const NamedFold& fold : kNamedFolds) fit *= landmark_of(anatomy, fold.id).confidence;
   const auto [least, most] = std::minmax(below[0], below[1]);
-  return fit < kFoldsFit && most > kOneHidden * kArmpitOff && least > kOtherHidden * kArmpitOff;
+  return fit < kWebsFit && most > kOneHidden * kArmpitOff && least > kOtherHidden * kArmpitOff;
 }
 
 void doubt_neck(Anatomy& anatomy) {
-  if (at(anatomy, body::LandmarkId::kNeck).confidence >= kNeckSeen) return;
+  if (landmark_of(anatomy, body::LandmarkId::kNeck).confidence >= kNeckSeen) return;
   doubt_fold({body::LandmarkId::kNeck, body::Part::kHead, "neck-uncertain", "the neck"},
              "where limbs were cut off skin that has grown together, and looks unlike known ones.",
              ", seen from all sides, shows it.", anatomy);
@@ -75,7 +75,7 @@ void doubt_folds(const Options& options, Anatomy& anatomy) {
     const bool as_given = !cut && (off < 0.0 || !was_closed(options));
     if (as_given && crotch) continue;
     const double armpit_room = as_given && !hidden ? kAsGiven : 1.0;
-    const double confidence = at(anatomy, fold.id).confidence;
+    const double confidence = landmark_of(anatomy, fold.id).confidence;
     const double crotch_room = !cut && confidence >= kLooksRight ? kCrotchRoom : 1.0;
     const double most = crotch ? crotch_room * kPerineumOff : armpit_room * kArmpitOff;
     if (std::abs(off) <= most) continue;

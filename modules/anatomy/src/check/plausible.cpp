@@ -63,7 +63,7 @@ Shares shares_of(const geometry::TriMesh& skin, const Anatomy& anatomy) {
 }
 
 /// The warnings that landmarks are uncertain or that their cross-checks disagree.
-int doubts(const Anatomy& anatomy) {
+int count_doubts(const Anatomy& anatomy) {
   return static_cast<int>(
       std::count_if(anatomy.warnings.begin(), anatomy.warnings.end(), [](const engine::Warning& w) {
         return w.code.ends_with("-uncertain") || w.code.ends_with("-disagrees");
@@ -79,8 +79,8 @@ bool warned_of(const Anatomy& anatomy, std::string_view code) {
 /// may rest on a thigh of one body, which leaves fewer in doubt.
 bool stays_welded(const Anatomy& anatomy) {
   if (!warned_of(anatomy, "legs-fused")) return false;
-  return (warned_of(anatomy, "limbs-fused") && doubts(anatomy) >= kDoubts) ||
-         (warned_of(anatomy, "hand-fused-to-leg") && doubts(anatomy) >= kTooManyDoubts);
+  return (warned_of(anatomy, "limbs-fused") && count_doubts(anatomy) >= kDoubts) ||
+         (warned_of(anatomy, "hand-fused-to-leg") && count_doubts(anatomy) >= kTooManyDoubts);
 }
 
 void check_limbs(const Shares& shares, std::vector<std::string>& found) {
@@ -128,7 +128,7 @@ std::vector<std::string> contradictions(const geometry::TriMesh& skin, const Ana
   const double height2 = anatomy.stature_m * anatomy.stature_m;
   if (!(shares.area > 0.0) || !(height2 > 0.0)) return {"it has no size"};
   const double area = shares.area / height2;
-  if (!kArea.holds(area) || (area > kLargeArea && doubts(anatomy) >= kDoubts))
+  if (!kArea.holds(area) || (area > kLargeArea && count_doubts(anatomy) >= kDoubts))
     found.push_back(
         engine::message("its surface is ", area / kTypicalArea, " times that of a body of its height"));
   if (!kHeadShare.holds(shares.part(Part::kHead)))
@@ -136,7 +136,7 @@ std::vector<std::string> contradictions(const geometry::TriMesh& skin, const Ana
                                     std::round(100.0 * shares.part(Part::kHead)), " % of the skin"));
   // A figure that stands may have flat parts in what it wears.
   if (const double flat = flat_share(skin, anatomy.up);
-      flat > kMostFlat && (std::ranges::max(thigh_cosines(anatomy)) < kSitting || doubts(anatomy) > 0))
+      flat > kMostFlat && (std::ranges::max(thigh_cosines(anatomy)) < kSitting || count_doubts(anatomy) > 0))
     found.push_back(
         engine::message(std::round(100.0 * flat), " % of its surface is as flat as furniture or a floor"));
   double trunk = 0.0;
@@ -145,12 +145,12 @@ std::vector<std::string> contradictions(const geometry::TriMesh& skin, const Ana
   if (!kTrunkShare.holds(trunk))
     found.push_back(
         engine::message("what would be the trunk has ", std::round(100.0 * trunk), " % of the skin"));
-  if (doubts(anatomy) >= kTooManyDoubts && warned_of(anatomy, "unusual-body"))
+  if (count_doubts(anatomy) >= kTooManyDoubts && warned_of(anatomy, "unusual-body"))
     found.push_back(
-        engine::message(doubts(anatomy), " of its landmarks are in doubt or contradict each other"));
+        engine::message(count_doubts(anatomy), " of its landmarks are in doubt or contradict each other"));
   if (stays_welded(anatomy))
-    found.push_back(engine::message("its arms and legs are both welded to something, and ", doubts(anatomy),
-                                    " of its landmarks are in doubt"));
+    found.push_back(engine::message("its arms and legs are both welded to something, and ",
+                                    count_doubts(anatomy), " of its landmarks are in doubt"));
   check_limbs(shares, found);
   check_lengths(anatomy, found);
   return found;

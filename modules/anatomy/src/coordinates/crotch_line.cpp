@@ -77,8 +77,8 @@ float frontness(const Skin& skin, const BodyCoordinates& coordinates, const Isol
 }
 
 void smooth(CrotchLine& line) {
-  constexpr int kPasses = 2;
-  for (int pass = 0; pass < kPasses; ++pass) {
+  constexpr int kSmoothings = 2;
+  for (int pass = 0; pass < kSmoothings; ++pass) {
     const auto before = line.point;
     for (std::size_t i = 1; i + 1 < before.size(); ++i)
       line.point[i] = 0.25 * (before[i - 1] + before[i + 1]) + 0.5 * before[i];

@@ -18,7 +18,7 @@ using geometry::Vec3;
 
 /// The levels at which loops around a leg are read, as shares of the path from toe to perineum: calf and
 /// knee.
-constexpr std::array<float, 7> kReadAt{0.36F, 0.42F, 0.48F, 0.54F, 0.60F, 0.66F, 0.72F};
+constexpr std::array<float, 7> kLoopLevels{0.36F, 0.42F, 0.48F, 0.54F, 0.60F, 0.66F, 0.72F};
 constexpr float kHeelFrom = 0.20F, kHeelTo = 0.29F, kCalf = 0.50F;  ///< as shares of that path
 
 /// The weight of a meter through space against a meter along the skin, in the search for the heel. With 8 the
@@ -91,8 +91,8 @@ double signed_turn(std::complex<double> first, std::complex<double> second) {
 /// The weighted mean of reads(loop) over loops at levels of a field that rises toward the trunk. Lower loops
 /// have larger weights, because a bent knee disturbs loops near it.
 template <class Reads>
-double mean_over_loops(const Skin& skin, const Field& field, const std::array<float, kReadAt.size()>& levels,
-                       Reads reads) {
+double mean_over_loops(const Skin& skin, const Field& field,
+                       const std::array<float, kLoopLevels.size()>& levels, Reads reads) {
   double sum = 0.0, all = 0.0;
   const auto loops = geodesic::isolines(skin.mesh, skin.edges, field, levels);
   for (std::size_t i = 0; i < loops.size(); ++i) {
@@ -110,9 +110,9 @@ double leftness(const Skin& skin, const Extremities& tips, Extremity foot, Extre
   const float leg = 0.5F * tips.feet_apart();
   const geodesic::Seed from{find_heel(skin, tips, foot, leg), 0.0F};
   const Field heel = geodesic::distances_within(skin.graph, {&from, 1},
-                                                over_the_toe(skin, kHeelTo * leg, kReadAt.back() * leg));
-  std::array<float, kReadAt.size()> levels{};
-  for (std::size_t i = 0; i < levels.size(); ++i) levels[i] = kReadAt[i] * leg;
+                                                over_the_toe(skin, kHeelTo * leg, kLoopLevels.back() * leg));
+  std::array<float, kLoopLevels.size()> levels{};
+  for (std::size_t i = 0; i < levels.size(); ++i) levels[i] = kLoopLevels[i] * leg;
   return mean_over_loops(skin, tips.field[foot], levels, [&](const Isoline& loop) {
     return turning(skin, loop, tips.field[foot]) *
            signed_turn(least_direction(skin, loop, heel), least_direction(skin, loop, tips.field[other]));

@@ -8,11 +8,12 @@
 namespace bodice::inline v0_1::anatomy {
 namespace {
 
-namespace data = coefficients::part_borders;
+namespace border_data = coefficients::part_borders;
 
 /// The build of the calibration bodies in the middle, how builds spread, and how many deviations off nothing
 /// more is known.
-constexpr Build kMiddle = to_floats(data::kBuildMiddle), kSpread = to_floats(data::kBuildSpread);
+constexpr Build kMiddleBuild = to_floats(border_data::kBuildMiddle),
+                kBuildSpread = to_floats(border_data::kBuildSpread);
 constexpr float kMostOff = 2.5F;
 
 /// What a deviation of each measure of the build adds to each weight of a border.
@@ -28,10 +29,11 @@ constexpr FollowsBuild follows(const double (&values)[std::tuple_size_v<Build> *
   return borders;
 }
 
-constexpr FollowsBuild kNeckFollows = follows(data::kNeckFollows),
-                       kShoulderFollows = follows(data::kShoulderFollows),
-                       kKneeFollows = follows(data::kKneeFollows), kHipFollows = follows(data::kHipFollows),
-                       kWaistFollows = follows(data::kWaistFollows);
+constexpr FollowsBuild kNeckFollows = follows(border_data::kNeckFollows),
+                       kShoulderFollows = follows(border_data::kShoulderFollows),
+                       kKneeFollows = follows(border_data::kKneeFollows),
+                       kHipFollows = follows(border_data::kHipFollows),
+                       kWaistFollows = follows(border_data::kWaistFollows);
 
 /// A build as deviations from the middle.
 struct Deviations {
@@ -41,7 +43,7 @@ struct Deviations {
 Deviations deviations(const Build& build) {
   Deviations result;
   for (std::size_t i = 0; i < build.size(); ++i) {
-    const float off = (build[i] - kMiddle[i]) / kSpread[i];
+    const float off = (build[i] - kMiddleBuild[i]) / kBuildSpread[i];
     result.off[i] = std::isfinite(off) ? std::clamp(off, -kMostOff, kMostOff) : 0.0F;
     result.known = result.known && std::isfinite(off) && std::abs(off) <= kMostOff;
   }
@@ -68,16 +70,16 @@ Border between(const Border& below, const Border& above, float share) {
 
 PartBorders part_borders(const Build& build) {
   const auto [off, known] = deviations(build);
-  const Border neck = on_build(data::kNeck, kNeckFollows, off),
-               waist = on_build(data::kWaist, kWaistFollows, off);
+  const Border neck = on_build(border_data::kNeck, kNeckFollows, off),
+               waist = on_build(border_data::kWaist, kWaistFollows, off);
   // The border of landmarks is the same for all builds, and errs less where the build is not known.
   return {known ? neck : kNeck,
-          on_build(data::kShoulder, kShoulderFollows, off),
-          {to_floats(data::kElbow)},
-          on_build(data::kKnee, kKneeFollows, off),
-          on_build(data::kHip, kHipFollows, off),
+          on_build(border_data::kShoulder, kShoulderFollows, off),
+          {to_floats(border_data::kElbow)},
+          on_build(border_data::kKnee, kKneeFollows, off),
+          on_build(border_data::kHip, kHipFollows, off),
           waist,
-          between(waist, neck, static_cast<float>(data::kChestShare[0]))};
+          between(waist, neck, static_cast<float>(border_data::kChestShare[0]))};
 }
 
 }  // namespace bodice::anatomy

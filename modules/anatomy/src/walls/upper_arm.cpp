@@ -7,7 +7,7 @@ namespace bodice::inline v0_1::anatomy {
 namespace {
 
 /// The height of the shoulders' middle and the radius of an upper arm, shares of the body's height.
-constexpr double kShoulder = 0.79, kUpperArm = 0.027;
+constexpr double kShoulderHeight = 0.79, kUpperArm = 0.027;
 
 SlicePoint middle_of(const Slices& slices, std::size_t slice) {
   double u = 0.0, v = 0.0, count = 0.0;
@@ -58,7 +58,7 @@ bool UpperArm::holds(std::size_t slice, std::size_t i) const {
 }
 
 std::optional<UpperArm> UpperArm::hanging(const Slices& slices, std::size_t last, const SlicePoint& end) {
-  const std::size_t shoulder = slices.count(kShoulder);
+  const std::size_t shoulder = slices.count(kShoulderHeight);
   UpperArm arm(slices, middle_of(slices, shoulder));
   arm.radius_ = kUpperArm * static_cast<double>(slices.count());
   const double du = end[0] - arm.center_[0], dv = end[1] - arm.center_[1], far = std::hypot(du, dv);
@@ -74,7 +74,7 @@ std::optional<UpperArm> UpperArm::hanging(const Slices& slices, std::size_t last
 /// Takes the direction along which shoulders are widest, on the side where a point lies, as outward.
 bool UpperArm::set_side(const SlicePoint& end) {
   double uu = 0.0, uv = 0.0, vv = 0.0;
-  const std::size_t shoulder = slices_->count(kShoulder);
+  const std::size_t shoulder = slices_->count(kShoulderHeight);
   for (std::size_t i = 0; i < slices_->plane(); ++i) {
     if (!(slices_->depth(shoulder, i) > 0.0F)) continue;
     const double u = slices_->u(i) - center_[0], v = slices_->v(i) - center_[1];
@@ -110,7 +110,7 @@ void UpperArm::fit_axis(std::size_t low, std::size_t high) {
 
 std::optional<UpperArm> UpperArm::bent(const Slices& slices, std::size_t low, std::size_t high,
                                        const SlicePoint& end) {
-  UpperArm arm(slices, middle_of(slices, slices.count(kShoulder)));
+  UpperArm arm(slices, middle_of(slices, slices.count(kShoulderHeight)));
   arm.radius_ = kUpperArm * static_cast<double>(slices.count());
   if (!arm.set_side(end)) return std::nullopt;
   arm.fit_axis(low, high);

@@ -14,8 +14,8 @@ using Point = Eigen::Vector2d;  ///< forward and up from the middle of the head,
 /// The outline is read from the forehead to the back of the head, in radians from the crown; before it lies
 /// the nose, and behind it the nape, which are hollow on all heads.
 constexpr double kForehead = 0.6, kBack = -1.55;
-/// So many steps of a degree and a half have one point of the outline each, the outermost.
-constexpr std::size_t kSteps = 86;
+/// The outline has one point in each step of a degree and a half: the outermost.
+constexpr std::size_t kOutlinePoints = 86;
 
 double cross(const Point& a, const Point& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -25,13 +25,13 @@ double cross(const Point& a, const Point& b) {
 std::vector<Point> outline(const LandmarkInput& input, const Vec3& up, const Vec3& forward) {
   const auto& positions = input.skin.mesh.positions;
   const Vec3 across = up.cross(forward);
-  std::array<Point, kSteps> outermost;
+  std::array<Point, kOutlinePoints> outermost;
   outermost.fill(Point::Zero());
   const auto add = [&](const Vec3& from_middle) {
     const Point p(from_middle.dot(forward) / input.size_m(), from_middle.dot(up) / input.size_m());
     const double turn = (std::atan2(p.x(), p.y()) - kBack) / (kForehead - kBack);
     if (!(turn >= 0.0 && turn < 1.0)) return;
-    Point& far = outermost[static_cast<std::size_t>(turn * static_cast<double>(kSteps))];
+    Point& far = outermost[static_cast<std::size_t>(turn * static_cast<double>(kOutlinePoints))];
     if (p.squaredNorm() > far.squaredNorm()) far = p;
   };
   for (const auto& t : input.skin.mesh.triangles)

@@ -9,19 +9,19 @@ using geodesic::Field;
 using geodesic::Isoline;
 
 /// The distance from the fingertip, in units of hand to hand, beyond which no skin is an arm's.
-constexpr float kArmReach = 0.60F;
+constexpr float kArmLoopReach = 0.60F;
 
 bool on_arm(const CoordinateArray& x) {
-  return x[kOwnHand] < kArmReach && kShoulder(x) > 0.0F;
+  return x[kOwnHand] < kArmLoopReach && kShoulder(x) > 0.0F;
 }
 
 /// Positive above the level; arms count as above, because they leave the trunk above all levels.
 Field heights(const LandmarkInput& input, const Border& border) {
-  constexpr float kAbove = 1.0F;
+  constexpr float kAboveLevel = 1.0F;
   Field height(input.skin.mesh.positions.size());
   for (std::size_t v = 0; v < height.size(); ++v) {
     const CoordinateArray left = input.coordinates.at(v, 0), right = input.coordinates.at(v, 1);
-    height[v] = on_arm(left) || on_arm(right) ? kAbove : 0.5F * (border(left) + border(right));
+    height[v] = on_arm(left) || on_arm(right) ? kAboveLevel : 0.5F * (border(left) + border(right));
   }
   return height;
 }

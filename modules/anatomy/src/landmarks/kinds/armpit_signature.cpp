@@ -26,11 +26,11 @@ using geometry::Index;
 /// 14. the distance from the head.
 /// Six measures of the body predict them: half the chest's girth, the distances between the hands, between
 /// the feet, and from perineum to crown, and the distances of the crown from front and back.
-constexpr Signature<14, 6> kArmpit = make_signature<14, 6>(
+constexpr Signature<14, 6> kArmpitSignature = make_signature<14, 6>(
     coefficients::armpit::kMean, coefficients::armpit::kOfBody, coefficients::armpit::kWhiten);
 
 /// The range of the armpit's distance from its own hand; fractions of hand to hand.
-constexpr float kArmpitFrom = 0.33F, kArmpitTo = 0.53F;
+constexpr float kSearchFrom = 0.33F, kSearchTo = 0.53F;
 /// The largest distances of the armpit from the level where the arm widens, in fractions of hand to hand, and
 /// from the shortest path from hand to foot, as a detour.
 constexpr float kNearShoulder = 0.075F, kArmpitDetour = 1.13F;
@@ -92,7 +92,7 @@ std::array<float, 14> armpit_features(const BodyCoordinates& coordinates, std::s
 bool may_be_armpit(const BodyCoordinates& coordinates, std::size_t v, int side) {
   const geodesic::Field& own = *coordinates.extremities().from_hand[side];
   const float apart = coordinates.extremities().hands_apart;
-  if (!(own[v] > kArmpitFrom * apart && own[v] < kArmpitTo * apart)) return false;
+  if (!(own[v] > kSearchFrom * apart && own[v] < kSearchTo * apart)) return false;
   const CoordinateArray x = coordinates.at(v, side);
   return std::abs(x[kPastShoulder]) < kNearShoulder && x[kHandFootDetour] < kArmpitDetour;
 }
@@ -100,9 +100,9 @@ bool may_be_armpit(const BodyCoordinates& coordinates, std::size_t v, int side) 
 ArmpitSignature find_armpit(const engine::Context& context, const Skin& skin,
                             const BodyCoordinates& coordinates, int side) {
   const float half = half_chest(coordinates, side);
-  const auto expected = kArmpit.expected(armpit_measures(coordinates, half));
+  const auto expected = kArmpitSignature.expected(armpit_measures(coordinates, half));
   const auto distance2 = [&](std::size_t v) {
-    return kArmpit.distance2(armpit_features(coordinates, v, side, half), expected);
+    return kArmpitSignature.distance2(armpit_features(coordinates, v, side, half), expected);
   };
   const auto may_be = [&](std::size_t v) { return may_be_armpit(coordinates, v, side); };
   const NearestSignature found =

@@ -31,10 +31,10 @@ struct Thighs {
   double mean(int axis) const { return 0.5 * (of_side[0][axis] + of_side[1][axis]); }
   double differ(int axis) const { return of_side[0][axis] - of_side[1][axis]; }
 };
-enum Axis { kOut, kUp, kAhead };
+enum Axis { kOutAxis, kUpAxis, kAheadAxis };
 
 /// The largest correction, which one body in a thousand exceeds; a fraction of the body size.
-constexpr double kFarthest = 0.04;
+constexpr double kLargestCorrection = 0.04;
 /// The sum of the distances from breastbone and back to where the legs merge, on a body of middle build; a
 /// fraction of the body size.
 constexpr double kMiddleTrunk = 0.6856;
@@ -62,8 +62,8 @@ double heaviness(const BodyCoordinates& coordinates) {
 /// and back.
 std::vector<double> even_measures(const LandmarkInput& input, const Trunk& trunk, const Thighs& thighs) {
   const BodyCoordinates& coordinates = input.coordinates;
-  const double ahead = thighs.mean(kAhead), up = thighs.mean(kUp), out = thighs.mean(kOut);
-  const double aheads = std::abs(thighs.differ(kAhead)), ups = std::abs(thighs.differ(kUp));
+  const double ahead = thighs.mean(kAheadAxis), up = thighs.mean(kUpAxis), out = thighs.mean(kOutAxis);
+  const double aheads = std::abs(thighs.differ(kAheadAxis)), ups = std::abs(thighs.differ(kUpAxis));
   const double heavy = heaviness(coordinates);
   std::vector<double> x{ahead,
                         up,
@@ -98,17 +98,17 @@ std::vector<double> even_measures(const LandmarkInput& input, const Trunk& trunk
 /// merge of the legs, of the estimate by distances, and of the middle between breastbone and back.
 std::vector<double> odd_measures(const LandmarkInput& input, const Trunk& trunk, const Thighs& thighs) {
   const BodyCoordinates& coordinates = input.coordinates;
-  const double ahead = thighs.differ(kAhead), up = thighs.differ(kUp);
+  const double ahead = thighs.differ(kAheadAxis), up = thighs.differ(kUpAxis);
   const double heavy = heaviness(coordinates);
   const Midline& middle = coordinates.midline();
   std::vector<double> x{
       ahead,
       up,
-      thighs.differ(kOut),
+      thighs.differ(kOutAxis),
       heavy * ahead,
       heavy * up,
-      ahead * thighs.mean(kAhead),
-      up * thighs.mean(kUp),
+      ahead * thighs.mean(kAheadAxis),
+      up * thighs.mean(kUpAxis),
       trunk.coordinates(coordinates.leg_merge().at.position).x(),
       trunk.coordinates(coordinates.perineum_position()).x(),
       0.5 * (trunk.coordinates(middle.front.position).x() + trunk.coordinates(middle.back.position).x())};
@@ -132,7 +132,7 @@ Corrected perineum_by_legs(const LandmarkInput& input, const Landmarks& marks) {
                            {{trunk.frame.left, odd, {"leftward", data::kLeftward}, true},
                             {trunk.frame.up, even, {"upward", data::kUpward}},
                             {trunk.frame.forward, even, {"forward", data::kForward}}},
-                           kFarthest});
+                           kLargestCorrection});
 }
 
 }  // namespace bodice::anatomy

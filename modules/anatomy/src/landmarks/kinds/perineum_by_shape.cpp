@@ -22,7 +22,7 @@ constexpr int kChord = 9;
 using Shape = std::array<double, 2 * kReadAt.size()>;
 
 /// The largest shift that a calibration body needs is .037 of the body size.
-constexpr double kMost = 0.04;
+constexpr double kMostShift = 0.04;
 
 /// How far behind the first estimate the perineum lies, as a fraction of the body size. The weights are a
 /// constant, then one for each point's depth below the first estimate, then one for its distance in front of
@@ -75,7 +75,7 @@ Correction along_line(const CrotchLine& line, const Vec3& first, const Shape& sh
           first,
           {{back, measures, {"bent", data::kBent}},
            {straight * back, measures, {"straighter", data::kStraighter}}},
-          kMost};
+          kMostShift};
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ Vec3 perineum_by_shape(const LandmarkInput& input, const Landmarks& marks) {
       shift_by({"bent", data::kBent}) + straight * shift_by({"straighter", data::kStraighter});
   record(input, along_line(*line, first, shape, straight));
   if (!std::isfinite(shift)) return first;
-  return first + point_behind(*line, std::clamp(shift, -kMost, kMost)) - line->at(0);
+  return first + point_behind(*line, std::clamp(shift, -kMostShift, kMostShift)) - line->at(0);
 }
 
 }  // namespace bodice::anatomy
