@@ -20,6 +20,32 @@ namespace {
 // which is what a part of a garment does that carries a few times its own mass.
 constexpr float kPressed_m = 5e-4f;
 
+// Packs of ties that one task aims.
+constexpr std::size_t kAimGrain = 512;
+
+// A tie becomes at most a tenth shorter in a substep than it was before, whatever its limit. Ties around a body
+// that is too wide for them would otherwise pull cloth deep into it in each substep, from where contact throws
+// it back.
+constexpr float kLeastOfLength = 0.9f;
+
+// Sets the targets of the ties from their lengths when the substep began.
+void aim_ties(const engine::Context& context, CoarseLevel& level) {
+  Ties& ties = level.ties;
+  const std::size_t packs = ties.a.size() / kTiePack;
+  engine::parallel_for(context, packs, kAimGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t first = begin * kTiePack; first < end * kTiePack; first += kTiePack) {
+      Float4 d[kTiePack];
+      for (std::size_t k = 0; k < kTiePack; ++k)
+        d[k] = load(level.before[ties.a[first + k]]) - load(level.before[ties.b[first + k]]);
+      transpose(d[0], d[1], d[2], d[3]);
+      const Float4 least =
+          kLeastOfLength * square_root(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + kTinyLength2);
+      const Float4 limit = load(&ties.limit_m[first]);
+      store(&ties.target_m[first], least > limit ? least : limit);
+    }
+  });
+}
+
 // Solves a pack of ties; returns whether one was too long.
 bool pull_pack(CoarseLevel& level, std::size_t pack) {
   const std::size_t first = pack * kTiePack;
@@ -31,13 +57,13 @@ bool pull_pack(CoarseLevel& level, std::size_t pack) {
   }
   Float4 x = d[0], y = d[1], z = d[2], none = d[3];
   transpose(x, y, z, none);
-  const Float4 length2 = x * x + y * y + z * z, limit = load(&level.ties.limit_m[first]);
-  const auto longer = length2 > limit * limit;
+  const Float4 length2 = x * x + y * y + z * z, target = load(&level.ties.target_m[first]);
+  const auto longer = length2 > target * target;
   if (!any(longer)) return false;
   const Float4 wa = weights(at_a[0], at_a[1], at_a[2], at_a[3]);
   const Float4 wb = weights(at_b[0], at_b[1], at_b[2], at_b[3]);
   const Float4 length = square_root(length2 + kTinyLength2);
-  const Float4 scale = longer ? (length - limit) / (length * (wa + wb + kTinyWeight)) : splat(0.0f);
+  const Float4 scale = longer ? (length - target) / (length * (wa + wb + kTinyWeight)) : splat(0.0f);
   const Float4 to_a = scale * wa, to_b = scale * wb;
   for (std::size_t k = 0; k < kTiePack; ++k) {
     store(level.at[a[k]], at_a[k] - to_a[k] * d[k]);
@@ -127,6 +153,8 @@ void load_nodes(const engine::Context& context, std::span<const CoarseLevel* con
       const Float4 from = moved_to(moved, p, level.node[n]);
       store(level.move[n], from);
       level.at[n] = {from[0], from[1], from[2], level.inverse_mass[n]};
+      const Index i = level.node[n];
+      level.before[n] = {p.old_x[i], p.old_y[i], p.old_z[i], 0.0f};
     }
   });
 }
@@ -172,6 +200,7 @@ void solve_coarse(const engine::Context& context, const Support& support, std::v
   std::size_t count = 0;
   for (CoarseLevel& level : levels) {
     load_nodes(context, {moved, count}, p, level);
+    aim_ties(context, level);
     if (!pull_together(context, level)) continue;
     if (hold_supported(context, support, level)) pull_together(context, level);
     to_displacements(context, level);

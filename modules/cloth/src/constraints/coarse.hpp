@@ -37,6 +37,9 @@ struct Ties {
   Schedule schedule;
   std::vector<Index> a, b;
   std::vector<float> limit_m;
+  /// The length to which a tie is pulled in this substep: at least its limit, and not much less than its length
+  /// when the substep began.
+  std::vector<float> target_m;
 };
 
 /// The nodes of one level.
@@ -46,6 +49,7 @@ struct CoarseLevel {
   std::vector<float> inverse_mass;  ///< #N: of the represented particles
   /// #N, then points for idle slots; the weight is the inverse mass, or zero where the body holds the node.
   std::vector<Point> at;
+  std::vector<Point> before;  ///< as many: the nodes when the substep began
   /// #N, meters: at first the position where the solution begins, then the displacement.
   std::vector<Point> move;
   Ties ties;

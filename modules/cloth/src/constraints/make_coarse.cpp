@@ -16,7 +16,9 @@ struct Spacing {
   int sweeps;
 };
 constexpr Spacing kSpacings[kMostLevels] = {{16.0, 8}, {4.0, 3}};
-constexpr double kNeighbors = 1.7;    // nodes within this many spacings are tied
+// Nodes within this many spacings are tied. With ties to the nearest nodes only, a level is a net of few
+// directions, which becomes longer as it becomes narrower.
+constexpr double kNeighbors = 3.0;
 constexpr double kReach = 1.7;        // the parents of a particle lie within this many spacings
 constexpr std::size_t kFewNodes = 3;  // a level with so few nodes is left out
 
@@ -69,6 +71,7 @@ Ties make_ties(const std::vector<Tie>& wanted, std::size_t nodes) {
     const Tie tie = t == kIdle ? Tie{idle, idle, 1.0f} : wanted[t];
     out.a.push_back(tie.a), out.b.push_back(tie.b), out.limit_m.push_back(tie.limit_m);
   }
+  out.target_m = out.limit_m;
   return out;
 }
 
@@ -98,8 +101,9 @@ CoarseLevel make_level(const geometry::TriMesh& mesh, ClothDistance& distance, d
     for (float& share : parents.share) share /= sum;
   }
   list_children(level);
-  level.at.resize(level.node.size() + idle_particles(level.node.size())),
-      level.move.resize(level.node.size()), level.inverse_mass.resize(level.node.size());
+  const std::size_t points = level.node.size() + idle_particles(level.node.size());
+  level.at.resize(points), level.before.resize(points);
+  level.move.resize(level.node.size()), level.inverse_mass.resize(level.node.size());
   return level;
 }
 
