@@ -137,8 +137,8 @@ TEST_CASE("coarse levels: a strap over a bar carries two panels of many more par
   for (int frame = 0; frame < 120; ++frame)
     longest = std::max(longest, solver.step({}, bar, kFrame_s).stretch_max);
   for (const Vec3& p : positions(solver, mesh.positions.size())) lowest_m = std::min(lowest_m, p.y());
-  // Eight substeps of one sweep let one edge become 2.4 times as long as it is at rest. Without support by the
-  // body it is 11 times, and 20 with ties between the nearest nodes alone.
+  // Eight substeps of one sweep let one edge become 2.4 times as long as it is at rest. Without support by
+  // the body it is 11 times, and 20 with ties between the nearest nodes alone.
   CHECK(longest < 2.0);
   CHECK(lowest_m > -0.65);
 }

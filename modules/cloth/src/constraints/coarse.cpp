@@ -23,9 +23,9 @@ constexpr float kPressed_m = 5e-4f;
 // Packs of ties that one task aims.
 constexpr std::size_t kAimGrain = 512;
 
-// A tie becomes at most a tenth shorter in a substep than it was before, whatever its limit. Ties around a body
-// that is too wide for them would otherwise pull cloth deep into it in each substep, from where contact throws
-// it back.
+// A tie becomes at most a tenth shorter in a substep than it was before, whatever its limit. Ties around a
+// body that is too wide for them would otherwise pull cloth deep into it in each substep, from where contact
+// throws it back.
 constexpr float kLeastOfLength = 0.9f;
 
 // Sets the targets of the ties from their lengths when the substep began.

@@ -20,9 +20,9 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-// Substeps longer than this get more sweeps over a block, which is in the cache already; the second lowers the
-// excess length of hanging cloth by a quarter. In shorter substeps gravity moves a particle by a few units of
-// rounding, and another correction loses more to rounding than it gains.
+// Substeps longer than this get more sweeps over a block, which is in the cache already; the second lowers
+// the excess length of hanging cloth by a quarter. In shorter substeps gravity moves a particle by a few
+// units of rounding, and another correction loses more to rounding than it gains.
 constexpr float kWorthMoreSweeps_s = 3e-4f;
 constexpr int kSweepsOfBlock = 3;
 
