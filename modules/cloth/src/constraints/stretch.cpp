@@ -20,11 +20,16 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-// Substeps longer than this get more sweeps over a block, which is in the cache already; the second lowers
-// the excess length of hanging cloth by a quarter. In shorter substeps gravity moves a particle by a few
-// units of rounding, and another correction loses more to rounding than it gains.
-constexpr float kWorthMoreSweeps_s = 3e-4f;
-constexpr int kSweepsOfBlock = 3;
+// Longer substeps make more sweeps over a block, which is in the cache already; iterations of the solver
+// shorten them by the root of their number. The second sweep lowers the excess length of hanging cloth by a
+// quarter. In the shortest substeps gravity moves a particle by a few units of rounding, and another
+// correction loses more to rounding than it gains.
+constexpr float kWorthTwoSweeps_s = 3e-4f, kWorthThreeSweeps_s = 1.5e-3f;
+
+int sweeps_of_block(float inverse_h2) {
+  const auto longer_than = [&](float h) { return inverse_h2 * h * h < 1.0f; };
+  return longer_than(kWorthThreeSweeps_s) ? 3 : longer_than(kWorthTwoSweeps_s) ? 2 : 1;
+}
 
 // The stiffness of an edge, newtons a meter of elongation. That of a strip of length l and width w is E w /
 // l, and the triangles of an edge have the area l w. In a quad with the shear angle g, a diagonal of length l
@@ -85,7 +90,7 @@ StretchConstraints make_stretch(const geometry::TriMesh& mesh, const Topology& t
 }
 
 void solve_stretch_block(const StretchConstraints& c, std::size_t block, float inverse_h2, Patch& patch) {
-  const int sweeps = inverse_h2 * kWorthMoreSweeps_s * kWorthMoreSweeps_s < 1.0f ? kSweepsOfBlock : 1;
+  const int sweeps = sweeps_of_block(inverse_h2);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     solve_packs(c.schedule.inside(std::span(c.inside), block), c.longest,
                 static_cast<float>(sweeps) * inverse_h2, patch.at);
