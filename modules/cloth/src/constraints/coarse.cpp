@@ -20,30 +20,21 @@ namespace {
 // which is what a part of a garment does that carries a few times its own mass.
 constexpr float kPressed_m = 5e-4f;
 
-// Packs of ties that one task aims.
-constexpr std::size_t kAimGrain = 512;
-
 // A tie becomes at most a tenth shorter in a substep than it was before, whatever its limit. Ties around a
 // body that is too wide for them would otherwise pull cloth deep into it in each substep, from where contact
 // throws it back.
 constexpr float kLeastOfLength = 0.9f;
 
-// Sets the targets of the ties from their lengths when the substep began.
-void aim_ties(const engine::Context& context, CoarseLevel& level) {
-  Ties& ties = level.ties;
-  const std::size_t packs = ties.a.size() / kTiePack;
-  engine::parallel_for(context, packs, kAimGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t first = begin * kTiePack; first < end * kTiePack; first += kTiePack) {
-      Float4 d[kTiePack];
-      for (std::size_t k = 0; k < kTiePack; ++k)
-        d[k] = load(level.before[ties.a[first + k]]) - load(level.before[ties.b[first + k]]);
-      transpose(d[0], d[1], d[2], d[3]);
-      const Float4 least =
-          kLeastOfLength * square_root(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + kTinyLength2);
-      const Float4 limit = load(&ties.limit_m[first]);
-      store(&ties.target_m[first], least > limit ? least : limit);
-    }
-  });
+// The lengths to which the ties of a pack are pulled.
+Float4 target_lengths(const CoarseLevel& level, std::size_t first) {
+  const Index *a = &level.ties.a[first], *b = &level.ties.b[first];
+  Float4 d[kTiePack];
+  for (std::size_t k = 0; k < kTiePack; ++k) d[k] = load(level.before[a[k]]) - load(level.before[b[k]]);
+  transpose(d[0], d[1], d[2], d[3]);
+  const Float4 least =
+      kLeastOfLength * square_root(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + kTinyLength2);
+  const Float4 limit = load(&level.ties.limit_m[first]);
+  return least > limit ? least : limit;
 }
 
 // Solves a pack of ties; returns whether one was too long.
@@ -57,7 +48,9 @@ bool pull_pack(CoarseLevel& level, std::size_t pack) {
   }
   Float4 x = d[0], y = d[1], z = d[2], none = d[3];
   transpose(x, y, z, none);
-  const Float4 length2 = x * x + y * y + z * z, target = load(&level.ties.target_m[first]);
+  const Float4 length2 = x * x + y * y + z * z, limit = load(&level.ties.limit_m[first]);
+  if (!any(length2 > limit * limit)) return false;
+  const Float4 target = target_lengths(level, first);
   const auto longer = length2 > target * target;
   if (!any(longer)) return false;
   const Float4 wa = weights(at_a[0], at_a[1], at_a[2], at_a[3]);
@@ -200,7 +193,6 @@ void solve_coarse(const engine::Context& context, const Support& support, std::v
   std::size_t count = 0;
   for (CoarseLevel& level : levels) {
     load_nodes(context, {moved, count}, p, level);
-    aim_ties(context, level);
     if (!pull_together(context, level)) continue;
     if (hold_supported(context, support, level)) pull_together(context, level);
     to_displacements(context, level);

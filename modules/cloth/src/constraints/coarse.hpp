@@ -37,9 +37,6 @@ struct Ties {
   Schedule schedule;
   std::vector<Index> a, b;
   std::vector<float> limit_m;
-  /// The length to which a tie is pulled in this substep: at least its limit, and not much less than its
-  /// length when the substep began.
-  std::vector<float> target_m;
 };
 
 /// The nodes of one level.

@@ -71,7 +71,6 @@ Ties make_ties(const std::vector<Tie>& wanted, std::size_t nodes) {
     const Tie tie = t == kIdle ? Tie{idle, idle, 1.0f} : wanted[t];
     out.a.push_back(tie.a), out.b.push_back(tie.b), out.limit_m.push_back(tie.limit_m);
   }
-  out.target_m = out.limit_m;
   return out;
 }
 

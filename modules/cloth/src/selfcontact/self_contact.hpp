@@ -49,7 +49,7 @@ struct SelfContact {
   std::vector<Point> before, now;  ///< #P: positions when the substep began, and at its end
   MovedLeaves moved_leaves;        ///< leaves with particles that moved since crossings were last counted
   std::vector<Index> moved;        ///< particles that were moved after contact with the body
-  ExpectedPaths paths;             ///< of the last search
+  ExpectedPaths paths;             ///< the paths that the last search expects
   StrayedLeaves strayed;
   std::vector<LeafMove> moves;       ///< #leaves
   std::vector<float> deviation_m;    ///< #leaves: the largest deviation of its particles
