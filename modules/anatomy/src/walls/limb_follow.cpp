@@ -43,10 +43,7 @@ class Follower {
 
   /// The middle of a track's nodes in a slice.
   SlicePoint middle_of(std::size_t slice, int t) const {
-    double u = 0.0, v = 0.0, count = 0.0;
-    for (std::size_t i = 0; i < slices_.plane(); ++i)
-      if (of(slice, i) == t) u += slices_.u(i), v += slices_.v(i), ++count;
-    return count > 0.0 ? SlicePoint{u / count, v / count} : SlicePoint{0.0, 0.0};
+    return slices_.middle([&](std::size_t i) { return of(slice, i) == t; });
   }
 
   void rename(int t, int to) {

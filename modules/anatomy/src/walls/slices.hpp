@@ -9,6 +9,9 @@
 
 namespace bodice::inline v0_1::anatomy {
 
+/// A point or a direction in the plane of a slice, in nodes.
+using SlicePoint = std::array<double, 2>;
+
 /// The slices across the longest axis of a grid. Nodes at its border are outside of the body. Nodes of a
 /// slice are numbered from 0 to plane() - 1.
 class Slices {
@@ -44,6 +47,15 @@ class Slices {
   }
   float depth(std::size_t slice, std::size_t i) const { return depth_->value[node(slice, i)]; }
   double cell() const { return depth_->cell_m; }
+
+  /// The middle of the nodes i of a slice for which belongs(i) is true; zero if there is none.
+  template <class Belongs>
+  SlicePoint middle(Belongs&& belongs) const {
+    double u_sum = 0.0, v_sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < plane(); ++i)
+      if (belongs(i)) u_sum += u(i), v_sum += v(i), ++count;
+    return count > 0.0 ? SlicePoint{u_sum / count, v_sum / count} : SlicePoint{0.0, 0.0};
+  }
 
   /// Visits the four neighbors of a node that is not at the border, and with `diagonal` four more.
   template <class Visit>

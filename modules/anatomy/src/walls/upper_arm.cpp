@@ -10,10 +10,7 @@ namespace {
 constexpr double kShoulderHeight = 0.79, kUpperArm = 0.027;
 
 SlicePoint middle_of(const Slices& slices, std::size_t slice) {
-  double u = 0.0, v = 0.0, count = 0.0;
-  for (std::size_t i = 0; i < slices.plane(); ++i)
-    if (slices.depth(slice, i) > 0.0F) u += slices.u(i), v += slices.v(i), ++count;
-  return count > 0.0 ? SlicePoint{u / count, v / count} : SlicePoint{0.0, 0.0};
+  return slices.middle([&](std::size_t i) { return slices.depth(slice, i) > 0.0F; });
 }
 
 double dot(double u, double v, const SlicePoint& direction) {

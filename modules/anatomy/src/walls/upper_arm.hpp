@@ -1,15 +1,11 @@
 // Where an upper arm lies that the slices of a body show as a part of the trunk.
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "walls/slices.hpp"
 
 namespace bodice::inline v0_1::anatomy {
-
-/// A point or a direction in the plane of a slice, in nodes.
-using SlicePoint = std::array<double, 2>;
 
 /// A straight upper arm: what lies within a radius of its axis, and all that lies outward of that.
 class UpperArm {

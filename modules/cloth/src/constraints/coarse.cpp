@@ -31,8 +31,7 @@ Float4 target_lengths(const CoarseLevel& level, std::size_t first) {
   Float4 d[kTiePack];
   for (std::size_t k = 0; k < kTiePack; ++k) d[k] = load(level.before[a[k]]) - load(level.before[b[k]]);
   transpose(d[0], d[1], d[2], d[3]);
-  const Float4 least =
-      kLeastOfLength * square_root(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + kTinyLength2);
+  const Float4 least = kLeastOfLength * square_root(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + kTinyLength2);
   const Float4 limit = load(&level.ties.limit_m[first]);
   return least > limit ? least : limit;
 }
