@@ -73,6 +73,21 @@ TEST_CASE("the armpit that fits less is in doubt where one upper arm is longer t
     }
 }
 
+TEST_CASE("an armpit is in doubt where one lies farther from the neck than the other") {
+  for (const double by : {0.02, 0.035}) {
+    CAPTURE(by);
+    anatomy::Anatomy found = standing_body().found;
+    geometry::Vec3& armpit = mark_in(found, LandmarkId::kArmpitL).position;
+    const geometry::Vec3 arm = (mark_in(found, LandmarkId::kElbowL).position - armpit).normalized();
+    const geometry::Vec3 collar = armpit - mark_in(found, LandmarkId::kNeck).position;
+    const geometry::Vec3 aside = collar - collar.dot(arm) * arm;  // the upper arm keeps its length
+    armpit += by * found.stature_m / aside.normalized().dot(collar.normalized()) * aside.normalized();
+    for (int again = 0; again < 2; ++again) anatomy::doubt_unequal_arms(found);
+    CHECK(count_of(found, "elbow-uncertain") == 0);
+    CHECK(count_of(found, "armpit-uncertain") == (by > 0.03 ? 1 : 0));
+  }
+}
+
 TEST_CASE("an armpit far below the fold that the room inside the body shows is in doubt by that alone") {
   const StandingBody& made = standing_body();
   for (const double lower : {0.0, 0.06}) {

@@ -7,6 +7,7 @@
 #include <bodice/synth/body.hpp>
 
 #include "analyze/expected_folds.hpp"
+#include "analyze/folds_to_wall.hpp"
 #include "analyze/low_armpits.hpp"
 #include "analyze/upright_height.hpp"
 #include "analyzed.hpp"
@@ -69,7 +70,7 @@ TEST_CASE("a fold that was found very far off stays in doubt where it was moved 
     REQUIRE(below);
     landmark_of(before, LandmarkId::kPerineum).position -=
         (c.lower - (*below)[2]) * before.stature_m * before.up;
-    anatomy::doubt_moved_folds(before, after);
+    anatomy::doubt_moved_folds({}, made.truth.mesh, before, after);
     CHECK(std::ranges::count(after.warnings, "perineum-uncertain", &engine::Warning::code) == c.doubted);
   }
 }
@@ -132,6 +133,38 @@ TEST_CASE("an armpit that is still too low by both is doubted once") {
   CHECK(doubts() == 1);
   CHECK(low.warnings.back().part == body::name(body::Part::kUpperArmR));
   CHECK(landmark_of(low, LandmarkId::kArmpitR).confidence < 0.5);
+}
+
+TEST_CASE("a crotch that is too high by limbs and by the room inside the body is doubted once") {
+  const Made made = made_in(synth::Pose::kArmsDown);
+  anatomy::Anatomy high = made.found;
+  const auto doubts = [&] {
+    return std::ranges::count(high.warnings, "perineum-uncertain", &engine::Warning::code);
+  };
+  anatomy::doubt_high_crotch({}, made.truth.mesh, high);
+  CHECK(doubts() == 0);
+  landmark_of(high, LandmarkId::kPerineum).position += 0.035 * high.stature_m * high.up;
+  for (int again = 0; again < 2; ++again) anatomy::doubt_high_crotch({}, made.truth.mesh, high);
+  CHECK(doubts() == 1);
+  CHECK(landmark_of(high, LandmarkId::kPerineum).confidence < 0.5);
+}
+
+TEST_CASE("armpits of raised arms that skin and copy have alike need no wall, and all others do") {
+  for (const auto pose : {synth::Pose::kT, synth::Pose::kArmsDown}) {
+    const Made made = made_in(pose);
+    const std::vector<anatomy::Fold> folds = anatomy::find_folds({}, made.truth.mesh, made.found);
+    REQUIRE(folds.size() == 3);
+    const auto few = anatomy::folds_to_wall(folds, {}, made.found, made.found);
+    CHECK(few.size() == (pose == synth::Pose::kT ? 1 : 3));
+    CHECK(few.back().id == LandmarkId::kPerineum);
+
+    const anatomy::Web web{LandmarkId::kArmpitL};
+    const std::size_t with_web = pose == synth::Pose::kT ? 2 : 3;
+    CHECK(anatomy::folds_to_wall(folds, {web}, made.found, made.found).size() == with_web);
+    anatomy::Anatomy low = made.found;
+    landmark_of(low, LandmarkId::kArmpitR).position -= 0.03 * low.stature_m * low.up;
+    CHECK(anatomy::folds_to_wall(folds, {}, made.found, low).size() == with_web);
+  }
 }
 
 TEST_CASE("the height by joints holds for bodies that stand or stride, also where a web lowers the crotch") {

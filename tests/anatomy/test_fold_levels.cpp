@@ -75,7 +75,7 @@ TEST_CASE("armpits of a skin as given are in doubt sooner where both lie low and
     int doubted;
   };
   for (const Case& c : {Case{0.033, 0.026, 0.7, 2}, Case{0.033, 0.018, 0.7, 1}, Case{0.033, 0.018, 0.9, 0},
-                        Case{0.033, 0.008, 0.7, 0}, Case{0.028, 0.028, 0.7, 0}}) {
+                        Case{0.033, 0.008, 0.7, 0}, Case{0.028, 0.028, 0.7, 2}, Case{0.026, 0.016, 0.7, 0}}) {
     auto found = found_on(synth::Pose::kArmsDown);
     for (int turn = 0; turn < 3; ++turn) {  // each armpit lets expect the other one a little
       const auto below = anatomy::folds_below_expected(found.landmarks);

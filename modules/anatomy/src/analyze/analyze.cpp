@@ -170,6 +170,7 @@ engine::Result<Anatomy> analyze(const engine::Context& context, const geometry::
     if (cut) doubt_unequal_arms(*found);
     if (cut || was_closed(options)) doubt_low_armpits(context, mesh, *found);
     if (cut) doubt_armpits_by_room(context, mesh, *found);
+    if (cut) doubt_high_crotch(context, mesh, *found);
     return found;
   });
 }

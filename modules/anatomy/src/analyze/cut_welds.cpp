@@ -10,9 +10,10 @@
 
 #include "analyze/expected_folds.hpp"
 #include "analyze/folds_hidden.hpp"
+#include "analyze/folds_look.hpp"
+#include "analyze/folds_to_wall.hpp"
 #include "analyze/thin_copy.hpp"
 #include "analyze/tips_of_skin.hpp"
-#include "analyze/upright_height.hpp"
 #include "analyze/weld_signs.hpp"
 #include "check/fold_doubts.hpp"
 #include "check/fold_levels.hpp"
@@ -48,12 +49,6 @@ constexpr double kBelowFold = 0.025;
 /// The folds of a copy kMuchDeeper times as deep as the first lie too high: less than usual is doubtful.
 constexpr double kMuchDeeper = 2.0, kDeepMisfit = 0.6;
 
-/// The least product of the confidences of armpits and crotch that counts as evidence for them. Scans with
-/// correct folds have 0.64 or more, and those with a wrong one 0.33 or less.
-constexpr double kFoldsFit = 0.6;
-/// Two statures count as equal if they differ by less than this share.
-constexpr double kSameStature = 0.015;
-
 /// A body with welded limbs, and the means to analyze it.
 struct WeldedBody {
   const engine::Context& context;
@@ -75,21 +70,6 @@ void warn(const std::string& where, const ThinCopy& thin, bool sure, Anatomy& ap
            "; they were cut apart " + std::to_string(std::lround(1e3 * thin.depth / apart.stature_m)) +
            " thousandths of the stature below the skin.",
        sure ? "" : "Check the borders of parts there; a pose with arms and legs apart needs no cut.", sure});
-}
-
-/// Whether armpits and crotch look as they do on known bodies.
-bool folds_fit(const Anatomy& apart) {
-  double fit = 1.0;
-  for (const NamedFold& fold : kNamedFolds)
-    fit *= apart.landmarks[static_cast<std::size_t>(fold.id)].confidence;
-  return fit >= kFoldsFit;
-}
-
-/// Whether the result for a body with hardly bent thighs is plausible although its folds cannot be predicted:
-/// they look as on known bodies, and the stature is that of the joints.
-bool looks_right(const Anatomy& apart) {
-  const auto height = upright_height(apart);
-  return height && folds_fit(apart) && std::abs(apart.stature_m / *height - 1.0) < kSameStature;
 }
 
 /// Whether nothing but a handle is in doubt, and armpits and crotch are where the limbs predict them, or are
@@ -183,13 +163,17 @@ Anatomy transferred(const WeldedBody& body, const SeparatedCopy& copy, const eng
 }
 
 /// Refines the result on a deep copy, which has no fingers and too high folds, by a shallow copy with walls.
+/// Walls at armpits that need none are left out where limbs are apart without.
 Anatomy refined(const WeldedBody& body, Anatomy rough, const std::vector<Web>& seen,
                 const engine::Result<Anatomy>& as_is) {
   std::vector<Fold> folds = find_folds(body.context, body.mesh, rough);
   std::vector<Web> armpits = seen;
   std::erase_if(armpits, [](const Web& web) { return web.id == LandmarkId::kPerineum; });
   add_folds(armpits, folds);
-  const auto copy = separate_known(body, rough, std::move(folds));
+  std::vector<Fold> few = as_is ? folds_to_wall(folds, seen, rough, *as_is) : folds;
+  std::optional<SeparatedCopy> copy;
+  if (few.size() < folds.size()) copy = separate_known(body, rough, std::move(few));
+  if (!copy || count_doubts(*copy) > 0) copy = separate_known(body, rough, std::move(folds));
   if (!copy) return rough;
   Anatomy fine = transferred(body, *copy, as_is, false);
   return doubts_but_handles(fine) > doubts_but_handles(rough) ? rough : fine;
@@ -212,6 +196,13 @@ Anatomy with_predicted_folds(const WeldedBody& body, Anatomy apart, const engine
   return apart;
 }
 
+/// The most doubts of a result with limbs apart that is better than the one on the skin as it is. Each web
+/// and each path that is too short counts as a doubt of the latter: without them, one handle at the fingers
+/// would be worse.
+int most_doubts(const Anatomy& as_is, const std::vector<Web>& seen) {
+  return doubts(as_is) + short_paths(as_is) + static_cast<int>(seen.size());
+}
+
 /// The result on a copy of this depth; empty if it has more doubts than the result on the skin itself.
 std::optional<Anatomy> apart_at_depth(const WeldedBody& body, double depth, const std::vector<Web>& seen,
                                       const engine::Result<Anatomy>& as_is) {
@@ -219,8 +210,8 @@ std::optional<Anatomy> apart_at_depth(const WeldedBody& body, double depth, cons
   if (!copy || shows_welds(copy->found)) return std::nullopt;
   const Anatomy first = refined(body, transferred(body, *copy, as_is, false), seen, as_is);
   Anatomy apart = with_predicted_folds(body, first, as_is, false);
-  if (as_is && doubts(apart) > doubts(*as_is) + static_cast<int>(seen.size())) return std::nullopt;
-  doubt_moved_folds(first, apart);
+  if (as_is && doubts(apart) > most_doubts(*as_is, seen)) return std::nullopt;
+  doubt_moved_folds(body.context, body.mesh, first, apart);
   return apart;
 }
 
@@ -232,8 +223,8 @@ std::optional<Anatomy> webs_apart(const WeldedBody& body, const std::vector<Web>
   if (!copy) return std::nullopt;
   const Anatomy first = transferred(body, *copy, as_is, true);
   Anatomy apart = with_predicted_folds(body, first, as_is, true);
-  if (doubts(apart) > doubts(*as_is) + static_cast<int>(seen.size())) return std::nullopt;
-  doubt_moved_folds(first, apart);
+  if (doubts(apart) > most_doubts(*as_is, seen)) return std::nullopt;
+  doubt_moved_folds(body.context, body.mesh, first, apart);
   return apart;
 }
 
@@ -255,13 +246,13 @@ bool keep_better(std::optional<Anatomy> apart, std::optional<Anatomy>& best) {
 }
 
 std::optional<Anatomy> welds_apart(const WeldedBody& body, const std::vector<Web>& seen,
-                                   const engine::Result<Anatomy>& as_is) {
+                                   const engine::Result<Anatomy>& as_is, bool welded) {
   std::optional<Anatomy> best;
   for (const double depth : std::span(kDepths).subspan(1)) {
     body.skin.remove_walls();
     if (keep_better(apart_at_depth(body, depth, seen, as_is), best)) return best;
   }
-  if (!is_welded(as_is) || has_too_much_area(body.mesh)) return best;
+  if (!welded || has_too_much_area(body.mesh)) return best;
   for (const double neck : std::span(kNecks).first(best ? 1 : kNecks.size()))
     for (const double depth : std::span(kDepths).first(kWalledDepths)) {
       body.skin.wall_limbs(body.context, body.distance, neck);
@@ -277,7 +268,7 @@ engine::Result<Anatomy> cut_welds(const engine::Context& context, const TriMesh&
   auto as_is = analyze(context, mesh, options);
   const std::vector<Web> seen =
       as_is ? find_webs(context, mesh, *as_is, options.made_up) : std::vector<Web>{};
-  const bool welded = is_welded(as_is), by_level = !welded && seen.empty();
+  const bool welded = is_welded(as_is) || arms_differ(as_is), by_level = !welded && seen.empty();
   const std::vector<Web> webs = by_level ? webs_by_level(context, mesh, options, *as_is) : seen;
   if (!welded && webs.empty()) return as_is;
   const MeshDistance distance(context, mesh);
@@ -285,10 +276,13 @@ engine::Result<Anatomy> cut_welds(const engine::Context& context, const TriMesh&
     const WeldedBody body{context, mesh, distance, *skin, options, analyze};
     auto apart = welded ? std::nullopt : webs_apart(body, webs, as_is);
     const bool as_given = by_level && !was_closed(options);
-    if (by_level && !(apart && fold_misfit(apart->landmarks) < fold_misfit(as_is->landmarks))) return as_is;
-    if (as_given && !folds_fit(*apart)) return as_is;
-    if (as_given) doubt_moved_folds(*as_is, *apart);
-    if (!apart) apart = welds_apart(body, seen, as_is);
+    const auto is_better = [&] {
+      return apart && (!as_given || outweighs_skin(*apart, *as_is)) &&
+             fold_misfit(apart->landmarks) < fold_misfit(as_is->landmarks);
+    };
+    if (by_level ? !is_better() : !apart) apart = welds_apart(body, webs, as_is, welded || by_level);
+    if (by_level && !is_better()) return as_is;
+    if (as_given) doubt_moved_folds(context, mesh, *as_is, *apart);
     if (apart) return std::move(*apart);
   }
   if (as_is) doubt(seen, *as_is);

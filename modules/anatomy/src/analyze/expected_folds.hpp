@@ -14,8 +14,10 @@ std::vector<Fold> expected_folds(const engine::Context& context, const geometry:
                                  const Anatomy& found);
 
 /// Warns of folds that were far from their predicted positions `before` limbs were cut again, and are near
-/// them `after` that. The cause of the first error may affect the second result as well.
-void doubt_moved_folds(const Anatomy& before, Anatomy& after);
+/// them `after` that. The cause of the first error may affect the second result as well. Armpits of which the
+/// room inside the body confirms both are not in doubt.
+void doubt_moved_folds(const engine::Context& context, const geometry::TriMesh& skin, const Anatomy& before,
+                       Anatomy& after);
 
 /// The webs that the levels of folds reveal. On a skin with closed holes, or where both armpits are hidden,
 /// levels alone are evidence. At armpits of any other skin, the room inside the body must agree.

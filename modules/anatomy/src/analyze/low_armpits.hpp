@@ -1,4 +1,5 @@
-// Armpits that are too low by two kinds of weak evidence together: the limbs, and the room inside the body.
+// Armpits that are too low, and a crotch that is too high, by two kinds of weak evidence together: the limbs,
+// and the room inside the body.
 #pragma once
 
 #include <array>
@@ -18,5 +19,9 @@ void doubt_low_armpits(const engine::Context& context, const geometry::TriMesh& 
 
 /// Doubts armpits of a body that was cut apart, by the room inside `skin` alone: they lie much too low.
 void doubt_armpits_by_room(const engine::Context& context, const geometry::TriMesh& skin, Anatomy& anatomy);
+
+/// Doubts the crotch of a body that was cut apart, if limbs, trunk and the room inside `skin` together have
+/// it lower: a wall went too far up.
+void doubt_high_crotch(const engine::Context& context, const geometry::TriMesh& skin, Anatomy& anatomy);
 
 }  // namespace bodice::anatomy

@@ -28,8 +28,17 @@ bool is_welded(const engine::Result<Anatomy>& found) {
   return !found || shows_welds(*found);
 }
 
+bool arms_differ(const engine::Result<Anatomy>& found) {
+  return found &&
+         std::ranges::find(found->warnings, "arms-differ", &engine::Warning::code) != found->warnings.end();
+}
+
 bool limbs_meet(const Anatomy& found) {
-  return std::ranges::any_of(found.warnings, is_short_path);
+  return short_paths(found) > 0;
+}
+
+int short_paths(const Anatomy& found) {
+  return static_cast<int>(std::ranges::count_if(found.warnings, is_short_path));
 }
 
 int doubts(const Anatomy& anatomy) {

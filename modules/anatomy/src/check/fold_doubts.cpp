@@ -20,8 +20,8 @@ constexpr double kAsGiven = 1.75;
 constexpr double kLooksRight = 0.85, kCrotchRoom = 1.5;
 
 /// Webs at both armpits of such a skin look unlike folds, by the least product of the three confidences, and
-/// lie too low alike: one of them by the first share of what is doubtful, the other by the second.
-constexpr double kWebsFit = 0.6, kOneHidden = 1.3, kOtherHidden = 0.6;
+/// lie too low alike: on average by the first share of what is doubtful, and neither by less than the second.
+constexpr double kWebsFit = 0.6, kBothHidden = 0.95, kEitherHidden = 0.6;
 
 /// The confidence of a neck below which it is in doubt where limbs were cut: a web may reach the shoulder.
 constexpr double kNeckSeen = 0.75;
@@ -34,8 +34,8 @@ const body::Landmark& landmark_of(const Anatomy& anatomy, body::LandmarkId id) {
 bool hides_armpits(const Anatomy& anatomy, const std::array<double, 3>& below) {
   double fit = 1.0;
   for (const NamedFold& fold : kNamedFolds) fit *= landmark_of(anatomy, fold.id).confidence;
-  const auto [least, most] = std::minmax(below[0], below[1]);
-  return fit < kWebsFit && most > kOneHidden * kArmpitOff && least > kOtherHidden * kArmpitOff;
+  const double mean = 0.5 * (below[0] + below[1]), least = std::min(below[0], below[1]);
+  return fit < kWebsFit && mean > kBothHidden * kArmpitOff && least > kEitherHidden * kArmpitOff;
 }
 
 void doubt_neck(Anatomy& anatomy) {
