@@ -1,6 +1,7 @@
-// Bytes as a body's file, in the formats with small readers: the result is a mesh of finite positions, or an
-// error with a sentence.
+// Bytes as a body's file: the result is a mesh of finite positions, with or without a rig, or an error with a
+// sentence.
 #include <bodice/io/import.hpp>
+#include <bodice/io/rig.hpp>
 
 #include "harness.hpp"
 
@@ -9,13 +10,15 @@ using namespace bodice;
 FUZZ_TARGET(import) {
   constexpr const char* kExtensions[] = {".obj", ".stl", ".ply"};
   fuzz::Bytes in(data, size);
-  const char* extension = kExtensions[in.next() % 3];
+  const char* extension = kExtensions[in.next() % 3];  // the format is that of the content
   const fuzz::TemporaryFile file(extension, in.rest());
-  const auto body = io::import_body({}, file.path(), {.unit = io::Unit::kMeter});
-  fuzz::check_reported(body);
-  if (!body.ok()) return 0;
-  for (const auto& p : body->skin.positions) FUZZ_CHECK(p.allFinite());
-  for (const auto& t : body->skin.triangles)
-    for (const auto v : t) FUZZ_CHECK(v < body->skin.positions.size());
+  const auto read = io::import_rigged_body({}, file.path(), {.unit = io::Unit::kMeter});
+  fuzz::check_reported(read);
+  if (!read.ok()) return 0;
+  const geometry::TriMesh& skin = read->body.skin;
+  for (const auto& p : skin.positions) FUZZ_CHECK(p.allFinite());
+  for (const auto& t : skin.triangles)
+    for (const auto v : t) FUZZ_CHECK(v < skin.positions.size());
+  fuzz::check_reported(read->rig);
   return 0;
 }

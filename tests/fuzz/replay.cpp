@@ -59,9 +59,16 @@ extern "C" void show_case(int signal) {
   std::_Exit(1);
 }
 
+/// Seconds that no case may take; sanitizers slow all down.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr unsigned kLongest_s = 200;
+#else
+constexpr unsigned kLongest_s = 20;
+#endif
+
 void run(fuzz::Harness harness, const Case& bytes) {
   running = &bytes;
-  alarm(20);  // seconds: no case may hang
+  alarm(kLongest_s);
   harness(bytes.data(), bytes.size());
 }
 
