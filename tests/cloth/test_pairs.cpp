@@ -18,7 +18,8 @@ struct Strip {
   std::vector<cloth::PairTask> tasks;
   std::vector<cloth::LeafMove> moves;
   std::vector<float> deviation_m;
-  std::vector<std::uint8_t> folded, loose;
+  std::vector<std::uint8_t> folded;
+  cloth::Loose loose;
 
   explicit Strip(double angle) {
     const TriMesh strip = folded_strip(angle);
@@ -28,7 +29,7 @@ struct Strip {
     tasks.resize(1);
     tasks[0].groups.push_back(cloth::new_group(mesh, 0, 1, 0.0f));
     for (const std::size_t leaf : {0, 1}) moves.push_back(cloth::move_of(mesh, leaf, at, at));
-    deviation_m.resize(2), folded.resize(2), loose.resize(at.size());
+    deviation_m.resize(2), folded.resize(2), loose = cloth::make_loose(at.size());
   }
 
   cloth::PairGroup& group() { return tasks[0].groups[0]; }

@@ -9,7 +9,6 @@
 
 #include "base/tolerances.hpp"
 #include "contact/sunk_particles.hpp"
-#include "selfcontact/loose.hpp"
 
 namespace bodice::inline v0_1::cloth {
 namespace {

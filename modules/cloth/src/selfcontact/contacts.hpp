@@ -12,6 +12,7 @@
 
 #include "contact/sunk_particles.hpp"
 #include "pairs/pairs.hpp"
+#include "selfcontact/loose.hpp"
 
 namespace bodice::inline v0_1::cloth {
 
@@ -35,8 +36,7 @@ struct ContactSource {
   std::span<const LeafMove> moves;  ///< #leaves: in this substep
   /// #leaves: their deviations from the expected paths when the substep ends.
   std::span<const float> deviation_m;
-  /// #P: a pair has no contact where both of its parts have loose particles.
-  std::span<const std::uint8_t> loose;
+  const Loose& loose;  ///< pairs that have no contact
 
   float step_of(const PairGroup& group) const {
     return relative_move(moves[group.leaf[0]], moves[group.leaf[1]]);

@@ -1,33 +1,41 @@
-// Particles that other layers may pass. Where the body left no room, or where cloth crossed at the start,
-// layers are on the wrong side of each other, and contact would keep them there. So the corners of triangles
-// that cross are loose: contact does not act between loose particles.
+// Particles and edges that other layers may pass. Where the body left no room, or where cloth crossed at the
+// start, parts of layers are on the wrong side of each other, and contact would keep them there. So contact
+// does not act between the corners of triangles that cross, where one of them is on the wrong side, and where
+// an edge passes through a triangle. Around these it acts, or tangles would grow.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "pairs/pairs.hpp"
+#include "selfcontact/wrong_side.hpp"
 
 namespace bodice::inline v0_1::cloth {
 
-/// The particles that are loose.
+/// What is loose.
 struct Loose {
-  std::vector<std::uint8_t> is_loose;  ///< #P
-  std::vector<Index> list;
+  CrossingParts parts;
+  std::vector<std::uint8_t> is_corner;  ///< #P: whether the particle is a corner of a tangle, or beyond one
+  std::vector<std::uint8_t> may_pass;   ///< #P: whether it is on the wrong side, or its side is undecided
+  std::vector<Index> list;              ///< the particles with `is_corner`
 };
 
 /// The state for this number of particles, none of them loose.
 Loose make_loose(std::size_t particles);
 
-/// Makes the corners of all tangles loose, and no other particle. When the corners' neighbors were loose as
-/// well, tangles grew.
-void loosen(const ContactMesh& mesh, std::span<const Tangle> tangles, Loose& loose);
+/// Finds what is loose around all tangles at positions `at`. Cost: that of find_crossing_parts().
+void loosen(const ContactMesh& mesh, std::span<const Tangle> tangles, std::span<const Point> at,
+            Loose& loose);
 
-/// Whether both parts of a pair have loose particles.
-inline bool are_loose(const Index (&particle)[4], bool edges, std::span<const std::uint8_t> loose) {
-  const bool first = loose[particle[0]] || (edges && loose[particle[1]]);
-  return first && (loose[particle[2]] || loose[particle[3]] || (!edges && loose[particle[1]]));
+/// The same as are_loose(), for a pair of which both parts have corners of tangles.
+bool corners_are_loose(const Index (&particle)[4], bool edges, const Loose& loose);
+
+/// Whether contact does not act between the two parts of a pair.
+inline bool are_loose(const Index (&particle)[4], bool edges, const Loose& loose) {
+  const auto& is_corner = loose.is_corner;
+  const bool first = is_corner[particle[0]] || (edges && is_corner[particle[1]]);
+  return first && (is_corner[particle[2]] || is_corner[particle[3]] || (!edges && is_corner[particle[1]])) &&
+         corners_are_loose(particle, edges, loose);
 }
 
 }  // namespace bodice::cloth

@@ -61,7 +61,7 @@ void search(const engine::Context& context, SelfContact& s) {
   refit(context, s.mesh, {s.paths.start, s.paths.move, {}}, s.tree);
   if (!s.crossings_known) {
     find_tangles(context, s.mesh, s.tree, s.paths.start, s.tasks, s.tangles);
-    loosen(s.mesh, s.tangles, s.loose);
+    loosen(s.mesh, s.tangles, s.paths.start, s.loose);
   }
   s.searched = s.tree_has_sweeps = s.crossings_known = true;
   find_groups(context, s.mesh, s.tree, s.gap_m + s.spare_m, s.gap_m, s.tasks);
@@ -82,8 +82,7 @@ void update_groups(const engine::Context& context, const SelfSubstep& substep, s
 }
 
 ContactSource source_of(const SelfContact& s) {
-  return {s.mesh,          {s.gap_m, s.slack_m, 0.0f, s.before, s.folded}, s.rest, s.moves, s.deviation_m,
-          s.loose.is_loose};
+  return {s.mesh, {s.gap_m, s.slack_m, 0.0f, s.before, s.folded}, s.rest, s.moves, s.deviation_m, s.loose};
 }
 
 void find_move(std::size_t leaf, SelfContact& s) {
@@ -261,7 +260,7 @@ void begin_self_contact(const engine::Context& context, const Particles& p, Self
   refit(context, s.mesh, {.at = s.before}, s.tree);
   s.tree_has_sweeps = false;
   find_tangles(context, s.mesh, s.tree, s.before, s.tasks, s.tangles);
-  loosen(s.mesh, s.tangles, s.loose);
+  loosen(s.mesh, s.tangles, s.before, s.loose);
 }
 
 SelfContactReport report_self_contact(const SelfContact& s) {
@@ -279,8 +278,7 @@ void push_apart(const engine::Context& context, const SelfSubstep& substep, Self
   find_moves(context, s);
   refresh_contacts(context, source_of(s), s.tasks);
   push_pairs_apart(context, s.mesh, push_of(substep, s), s.tasks, p.point);
-  untangle(s.mesh, s.tangles, {substep.touching, s.loose.list, kUntangle_m_s * substep.length_s}, s.now,
-           p.point);
+  untangle(s.mesh, s.tangles, {substep.touching, s.loose, kUntangle_m_s * substep.length_s}, s.now, p.point);
 }
 
 void hold_apart(const engine::Context& context, const SelfSubstep& substep, const ResolvedBody& body,
@@ -290,7 +288,7 @@ void hold_apart(const engine::Context& context, const SelfSubstep& substep, cons
     separate(context, substep, body, p, s);
     copy_moved_points(substep.length_s, s.now, p);
   }
-  if (add_pressed(s.mesh, s.tasks, s.now, s.tangles)) loosen(s.mesh, s.tangles, s.loose);
+  if (add_pressed(s.mesh, s.tasks, s.now, s.tangles)) loosen(s.mesh, s.tangles, s.now, s.loose);
   end_groups(context, s.tasks, s.folded);
   s.paths.since_s += substep.length_s;
   update_drift(context, substep.length_s, s);

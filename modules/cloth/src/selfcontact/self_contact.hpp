@@ -44,7 +44,7 @@ struct SelfContact {
   SweepTree tree;
   std::vector<PairTask> tasks;
   std::vector<Tangle> tangles;     ///< triangles that cross
-  Loose loose;                     ///< the corners of these, between which contact does not act
+  Loose loose;                     ///< the pairs around these on which contact does not act
   std::vector<Point> rest;         ///< #P: positions at rest, meters, in the local frame of that time
   std::vector<Point> before, now;  ///< #P: positions when the substep began, and at its end
   MovedLeaves moved_leaves;        ///< leaves with particles that moved since crossings were last counted

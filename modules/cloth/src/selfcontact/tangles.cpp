@@ -7,6 +7,7 @@
 
 #include "base/tolerances.hpp"
 #include "pairs/near_faces.hpp"
+#include "selfcontact/passage.hpp"
 
 namespace bodice::inline v0_1::cloth {
 namespace {
@@ -14,44 +15,6 @@ namespace {
 // The least sine of the angle between an edge and a triangle's plane that the gradient uses. With a smaller
 // one it would be too long.
 constexpr float kLeastSine = 0.2f;
-
-Float4 at_particle(std::span<const Point> at, Index i) {
-  return xyz(load(at[i]));
-}
-
-// Where an edge passes through a triangle: weights of its ends and of the triangle's corners.
-struct Passage {
-  bool passes = false;
-  float edge[2], face[3];
-};
-
-Passage passage(Float4 p, Float4 q, Float4 a, Float4 b, Float4 c) {
-  const Float4 normal = cross(b - a, c - a), along = q - p;
-  const float from = dot(normal, p - a), to = dot(normal, q - a);
-  if (!(from * to < 0.0f)) return {};
-  const float wa = dot(along, cross(b - p, c - p)), wb = dot(along, cross(c - p, a - p)),
-              wc = dot(along, cross(a - p, b - p));
-  const bool inside = (wa > 0.0f && wb > 0.0f && wc > 0.0f) || (wa < 0.0f && wb < 0.0f && wc < 0.0f);
-  if (!inside) return {};
-  const float all = wa + wb + wc, t = from / (from - to);
-  return {true, {1.0f - t, t}, {wa / all, wb / all, wc / all}};
-}
-
-bool contains(const Face& f, Index i) {
-  return f.particle[0] == i || f.particle[1] == i || f.particle[2] == i;
-}
-
-// Calls visit(k, passage) for each edge k of `of` that passes through `face` and shares no particle with it.
-template <class Visit>
-void for_each_passage(const Face& of, const Face& face, std::span<const Point> at, Visit&& visit) {
-  for (unsigned k = 0; k < 3; ++k) {
-    const Index p = of.particle[k], q = of.particle[(k + 1) % 3];
-    if (contains(face, p) || contains(face, q)) continue;
-    const Passage through = passage(at_particle(at, p), at_particle(at, q), at_particle(at, face.particle[0]),
-                                    at_particle(at, face.particle[1]), at_particle(at, face.particle[2]));
-    if (through.passes) visit(k, through);
-  }
-}
 
 bool cross_each_other(const Face& a, const Face& b, std::span<const Point> at) {
   bool found = false;
@@ -98,7 +61,18 @@ void limit_displacement(float most_m, const Point& from, Point& to) {
 }
 
 bool lies_on_body(const Face& f, std::span<const std::uint8_t> touching) {
-  return touching[f.particle[0]] || touching[f.particle[1]] || touching[f.particle[2]];
+  return std::ranges::any_of(f.particle, [&](Index i) { return touching[i] != 0; });
+}
+
+bool is_beyond(const Face& f, const CrossingParts& parts) {
+  return std::ranges::any_of(f.particle, [&](Index i) { return is_beyond(parts, i); });
+}
+
+// Two triangles that both lie on the body stay where they are, unless it is known which one is beyond the
+// other. Otherwise they would be moved to and fro.
+bool stays(const Face& a, const Face& b, const Untangling& how) {
+  return lies_on_body(a, how.touching) && lies_on_body(b, how.touching) && !is_beyond(a, how.loose.parts) &&
+         !is_beyond(b, how.loose.parts);
 }
 
 void search_tangles(const ContactMesh& mesh, const SweepTree& tree, std::span<const Point> at,
@@ -146,16 +120,16 @@ bool add_pressed(const ContactMesh& mesh, const std::vector<PairTask>& tasks, st
 void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles, const Untangling& how,
               std::span<Point> room, std::span<Point> at) {
   if (tangles.empty()) return;
-  for (const Index i : how.movable) room[i] = at[i];
+  for (const Index i : how.loose.list) room[i] = at[i];
   for (const Tangle& t : tangles) {
     const Face &a = mesh.faces[t.a], &b = mesh.faces[t.b];
-    if (lies_on_body(a, how.touching) && lies_on_body(b, how.touching)) continue;
+    if (stays(a, b, how)) continue;
     for_each_passage(a, b, at,
                      [&](unsigned k, const Passage& p) { shorten_crossing(a, k, b, p, how.step_m, at); });
     for_each_passage(b, a, at,
                      [&](unsigned k, const Passage& p) { shorten_crossing(b, k, a, p, how.step_m, at); });
   }
-  for (const Index i : how.movable) limit_displacement(how.step_m, room[i], at[i]);
+  for (const Index i : how.loose.list) limit_displacement(how.step_m, room[i], at[i]);
 }
 
 }  // namespace bodice::cloth

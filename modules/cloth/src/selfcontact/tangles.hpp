@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pairs/pairs.hpp"
+#include "selfcontact/loose.hpp"
 
 namespace bodice::inline v0_1::cloth {
 
@@ -26,13 +27,14 @@ bool add_pressed(const ContactMesh& mesh, const std::vector<PairTask>& tasks, st
 /// How triangles that cross are moved.
 struct Untangling {
   std::span<const std::uint8_t> touching;  ///< #P: whether the particle lies on the body
-  std::span<const Index> movable;          ///< at least the corners of all tangles
+  const Loose& loose;                      ///< what is loose around these tangles
   float step_m = 0.0f;                     ///< how far each triangle is moved, and a particle at most
 };
 
 /// Moves the triangles of all tangles that still cross. Two triangles that both lie on the body stay where
-/// they are. A particle in many tangles moves no farther than `how.step_m`, because the sum of their steps
-/// would tear the cloth. `room` (#P) is scratch.
+/// they are, unless one has a particle that is known to be on the wrong side. A particle in many tangles
+/// moves no farther than `how.step_m`, because the sum of their steps would tear the cloth. `room` (#P) is
+/// scratch.
 void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles, const Untangling& how,
               std::span<Point> room, std::span<Point> at);
 

@@ -6,7 +6,6 @@
 #include <bodice/engine/parallel.hpp>
 
 #include "contact/sunk_particles.hpp"
-#include "selfcontact/loose.hpp"
 
 namespace bodice::inline v0_1::cloth {
 namespace {
