@@ -125,6 +125,34 @@ TEST_CASE("fit: too-tight names each part that is at least 1 cm too tight, the t
         "The garment is too tight: around thigh_l it lacks 30 mm (stretched by 9 %, cotton yields by 4 %).");
 }
 
+TEST_CASE("fit: cloth that a moving body has stretched beyond any size is caught, not too tight") {
+  const auto cotton = cloth::find_fabric("cotton");
+  REQUIRE(cotton.ok());
+  using enum body::Part;
+  const std::vector<tryon::PartEase> end = {
+      {.part = kThighL, .area_m2 = 0.03, .strain_mean = 0.09, .girth_m = 0.6},
+      {.part = kHead, .area_m2 = 0.03, .strain_mean = 0.51, .girth_m = 0.7},
+      {.part = kUpperArmR, .area_m2 = 0.02, .strain_mean = 5.92, .girth_m = 0.3}};
+  const tryon::WornGarment garment{.name = "shirt"};
+  const Vec3 up = Vec3::UnitY();
+  std::vector<engine::Warning> moved, stood;
+  tryon::warn_of_fit({garment, {}, end, {}, up, false}, *cotton, moved);
+  REQUIRE(moved.size() == 2);
+  CHECK(moved[0].code == "too-tight");
+  CHECK(moved[0].message ==
+        "The garment is too tight: around thigh_l it lacks 30 mm (stretched by 9 %, cotton yields by 4 %).");
+  CHECK(moved[1].code == "caught");
+  CHECK(moved[1].part == "shirt");
+  CHECK(moved[1].message ==
+        "The cloth is caught at upper_arm_r, where it is stretched by 592 %; also at head (51 %).");
+  // On a body that stands the same garment is much too small.
+  const std::vector<geometry::Vec3> nothing;
+  tryon::warn_of_fit({garment, {}, end, nothing, up, true}, *cotton, stood);
+  REQUIRE(!stood.empty());
+  CHECK(stood[0].code == "too-tight");
+  for (const engine::Warning& w : stood) CHECK(w.code != "caught");
+}
+
 TEST_CASE("fit: a tube too small around the hips is too tight there by what it lacks, one that fits is not") {
   const auto executor = bodice_test::make_threads(2);
   const engine::Context context{.executor = executor.get()};

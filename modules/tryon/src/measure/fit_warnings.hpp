@@ -19,8 +19,10 @@ struct GarmentBeforeAndAfter {
 };
 
 /// Adds the warnings of a garment that does not fit. `too-tight` names each part around which the garment is
-/// at least 1 cm too short for its fabric, with that length, the tightest part first. `too-loose` is for a
-/// garment that lay on the body and has slid down it by more than 5 cm on average, and states that distance.
+/// at least 1 cm too short for its fabric, with that length, the tightest part first. `caught` names those
+/// that a moving body has stretched by 40 % more than the fabric yields, which no size mends. `too-loose` is
+/// for a garment that lay on the body and has slid down it by more than 5 cm on average, and states that
+/// distance.
 void warn_of_fit(const GarmentBeforeAndAfter& worn, const cloth::Fabric& fabric,
                  std::vector<engine::Warning>& warnings);
 
