@@ -13,6 +13,24 @@ using namespace bodice_test;
 
 namespace {
 
+/// All triangles that cross, by brute force.
+std::vector<cloth::Tangle> tangles_of(const TriMesh& mesh, const cloth::ContactMesh& contact) {
+  const auto face_of = [&](std::size_t triangle) {
+    const auto same = [&](const cloth::Face& f) {
+      return std::ranges::equal(f.particle, mesh.triangles[triangle]);
+    };
+    return static_cast<std::uint32_t>(std::ranges::find_if(contact.faces, same) - contact.faces.begin());
+  };
+  std::vector<cloth::Tangle> tangles;
+  for (const auto& [s, t] : geometry::find_crossings(mesh.positions, mesh.triangles)) {
+    const auto a = face_of(s), b = face_of(t);
+    REQUIRE(std::max(a, b) < contact.faces.size());
+    tangles.push_back({std::min(a, b), std::max(a, b)});
+  }
+  std::ranges::sort(tangles);
+  return tangles;
+}
+
 /// A flat sheet of 12 x 12 quads of 5 cm with a second surface above it, 2 cm higher at rest and shifted, so
 /// that no vertex is above another one. Vertices of either come first and second in `mesh`.
 struct CrossedSheets {
@@ -37,11 +55,7 @@ struct CrossedSheets {
     add(Vec3::Zero(), height_m);
     contact = cloth::make_contact_mesh(mesh);
     loose = cloth::make_loose(mesh.positions.size());
-    for (const auto& [s, t] : geometry::find_crossings(mesh.positions, mesh.triangles)) {
-      const auto a = face_of(s), b = face_of(t);
-      tangles.push_back({std::min(a, b), std::max(a, b)});
-    }
-    std::ranges::sort(tangles);
+    tangles = tangles_of(mesh, contact);
     cloth::loosen(contact, tangles, points_of(mesh.positions), loose);
   }
 
@@ -72,14 +86,6 @@ struct CrossedSheets {
       }
     CHECK(any == all);
     return any;
-  }
-
- private:
-  std::uint32_t face_of(std::size_t triangle) const {
-    for (std::uint32_t f = 0; f < contact.faces.size(); ++f)
-      if (std::ranges::equal(contact.faces[f].particle, mesh.triangles[triangle])) return f;
-    FAIL("there is no such face");
-    return 0;
   }
 };
 
@@ -140,17 +146,17 @@ TEST_CASE("wrong side: all particles of a part that a line of crossing encloses 
 }
 
 TEST_CASE("wrong side: a corner of a border below another layer may return, and that layer may not pass") {
-  const CrossedSheets sheets([](const Vec3& p) {
-    return distance_xz(p, Vec3::Zero()) < 0.01 ? -CrossedSheets::kApart_m : CrossedSheets::kApart_m;
+  const Vec3 corner = CrossedSheets::kQuads * CrossedSheets::kEdge_m * Vec3(1, 0, 1);
+  const CrossedSheets sheets([&](const Vec3& p) {
+    return distance_xz(p, corner) < 0.08 ? -CrossedSheets::kApart_m : CrossedSheets::kApart_m;
   });
-  // The corner is beside the lower surface, which is shifted. It is inside for the opposite one.
-  CHECK(sheets.tangles.empty());
-  const Vec3 opposite = CrossedSheets::kQuads * CrossedSheets::kEdge_m * Vec3(1, 0, 1);
-  const CrossedSheets crossed([&](const Vec3& p) {
-    return distance_xz(p, opposite) < 0.01 ? -CrossedSheets::kApart_m : CrossedSheets::kApart_m;
-  });
-  REQUIRE(!crossed.tangles.empty());
-  CHECK(crossed.passing() == std::vector<Index>{crossed.upper(CrossedSheets::kQuads, CrossedSheets::kQuads)});
+  // The line of crossing ends inside the lower layer, so that it encloses no part of it.
+  const auto lower_is_cut = [&](const cloth::EdgeEnds& cut) { return !sheets.is_upper(cut.p); };
+  REQUIRE(std::ranges::any_of(sheets.loose.parts.cut, lower_is_cut));
+  std::vector<Index> below;
+  for (const int row : {11, 12})
+    for (const int column : {11, 12}) below.push_back(sheets.upper(column, row));
+  CHECK(sheets.passing() == below);
 }
 
 TEST_CASE("wrong side: where a layer passes right through another one, all at the line may pass") {
@@ -167,19 +173,34 @@ TEST_CASE("wrong side: a strip that is folded through itself beside its fold may
   const cloth::ContactMesh contact = cloth::make_contact_mesh(strip);
   const Index last = static_cast<Index>(strip.positions.size() - 1);
   strip.positions[last].y() = -0.05;
-  std::vector<cloth::Tangle> tangles;
-  for (const auto& [s, t] : geometry::find_crossings(strip.positions, strip.triangles)) {
-    std::uint32_t of[2] = {};
-    for (std::uint32_t f = 0; f < contact.faces.size(); ++f) {
-      if (std::ranges::equal(contact.faces[f].particle, strip.triangles[s])) of[0] = f;
-      if (std::ranges::equal(contact.faces[f].particle, strip.triangles[t])) of[1] = f;
-    }
-    tangles.push_back({std::min(of[0], of[1]), std::max(of[0], of[1])});
-  }
+  const std::vector<cloth::Tangle> tangles = tangles_of(strip, contact);
   REQUIRE(!tangles.empty());
   cloth::Loose loose = cloth::make_loose(strip.positions.size());
   cloth::loosen(contact, tangles, points_of(strip.positions), loose);
   CHECK(loose.may_pass[last] != 0);
+}
+
+TEST_CASE("wrong side: a line of crossing that ends at a fold encloses a part up to the fold") {
+  // A surface folded in the middle, its second half above the first one but for three vertices of a column
+  // from the fold on. No vertex of a half is above one of the other.
+  constexpr int kColumns = 12, kRows = 24, kFold = 12, kColumn = 6;
+  const auto index = [](int column, int row) { return static_cast<Index>(row * (kColumns + 1) + column); };
+  TriMesh mesh = surface(kColumns, kRows, false, [](double u, double v) {
+    const double out = std::abs(v - 0.5);
+    return v > 0.5 ? Vec3(u + 0.07 * out, 0.02, -0.93 * out) : Vec3(u, 0, -out);
+  });
+  for (int row = kFold + 1; row <= kFold + 3; ++row) mesh.positions[index(kColumn, row)].y() = -0.02;
+  const cloth::ContactMesh contact = cloth::make_contact_mesh(mesh);
+  cloth::Loose loose = cloth::make_loose(mesh.positions.size());
+  const std::vector<cloth::Tangle> tangles = tangles_of(mesh, contact);
+  REQUIRE(!tangles.empty());
+  cloth::loosen(contact, tangles, points_of(mesh.positions), loose);
+  REQUIRE(!loose.parts.line_ends.empty());
+  for (int row = kFold + 1; row <= kFold + 3; ++row) {
+    CAPTURE(row);
+    CHECK(loose.may_pass[index(kColumn, row)] != 0);
+    for (const int beside : {kColumn - 1, kColumn + 1}) CHECK(loose.may_pass[index(beside, row)] == 0);
+  }
 }
 
 TEST_CASE("wrong side: a particle that is through a layer is drawn back where both lie on the body") {

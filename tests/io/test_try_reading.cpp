@@ -40,3 +40,15 @@ TEST_CASE("a child that was stopped by others, or waits for a lock, is no eviden
   for (const int signal : {SIGALRM, SIGKILL, SIGTERM})
     CHECK(try_in_child([=] { std::raise(signal); }) == Ending::kEnds);
 }
+
+TEST_CASE("a function that takes too long runs on in a child of a thread that blocks all signals, too") {
+  sigset_t all, before;
+  ::sigfillset(&all);
+  REQUIRE(::pthread_sigmask(SIG_SETMASK, &all, &before) == 0);
+  const Ending ending = try_in_child([] {
+    for (volatile unsigned turns = 0;; turns = turns + 1) {
+    }
+  });
+  REQUIRE(::pthread_sigmask(SIG_SETMASK, &before, nullptr) == 0);
+  CHECK(ending == Ending::kRunsOn);
+}

@@ -31,6 +31,10 @@ void limit(int resource, rlim_t most) {
 [[noreturn]] void run_child(const std::function<void()>& function, unsigned most_s) {
   for (const int fatal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGALRM, SIGXCPU})
     std::signal(fatal, SIG_DFL);
+  // A host that handles signals in a thread of its own blocks them in all others, and a child inherits that.
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, most_s);
   ::alarm(most_s + kLocked_s);

@@ -5,6 +5,7 @@
 
 namespace bodice::inline v0_1::io {
 
+/// How a function that was tried in a child ended.
 enum class Ending { kEnds, kCrashes, kRunsOn };
 
 /// How a function ends in a copy of this process, which prints nothing and is gone afterwards. kRunsOn: it
