@@ -135,22 +135,6 @@ TEST_CASE("only the parts that a garment can reach are fitted") {
     CHECK((has(e.part) || (torso && is_torso(e.part))));
 }
 
-TEST_CASE("a skirt is held at its waistband, a tunic is not held") {
-  const engine::Context context;
-  const tryon::SegmentedSkin& skin = builtin_skin(kBodyVertices);
-  const tryon::WornGarment skirt = skirt_for(context, skin);
-  const auto held = tryon::held_vertices(skirt.mesh, skin);
-  REQUIRE_FALSE(held.empty());
-  CHECK(held.size() < skirt.mesh.positions.size() / 5);
-  double lowest = 1e9;
-  for (const geometry::Index v : held) lowest = std::min(lowest, skirt.mesh.positions[v].y());
-  CHECK(lowest > 0.5 * skin.anatomy.stature_m);
-
-  const auto tunic = tryon::make_garment(context, skin, {.kind = synth::GarmentKind::kTunic});
-  REQUIRE_MESSAGE(tunic.ok(), tunic.error().sentence());
-  CHECK(tryon::held_vertices(tunic->mesh, skin).empty());
-}
-
 TEST_CASE("the report has every key that its readers rely on") {
   const engine::Context context;
   const tryon::PreparedBody& body = builtin_body(kBodyVertices, proxy::Tier::kPaper);

@@ -59,15 +59,17 @@ std::vector<Piece> find_pieces(const geometry::TriMesh& mesh, const geometry::Co
   return pieces;
 }
 
-/// Marks the vertices within the band's width of its rim.
-void mark_band(const geometry::TriMesh& mesh, const std::vector<Index>& rim, double width_m,
-               std::vector<bool>& held) {
+/// Marks the vertices of the rim's piece within the band's width of the rim. Another piece that lies over the
+/// band, such as a shirt over trousers, stays free.
+void mark_band(const geometry::TriMesh& mesh, const geometry::Components& components,
+               const std::vector<Index>& rim, double width_m, std::vector<bool>& held) {
+  const auto is_near_rim = [&](const Vec3& p) {
+    return std::ranges::any_of(
+        rim, [&](Index v) { return (p - mesh.positions[v]).squaredNorm() <= width_m * width_m; });
+  };
+  const Index piece = components.of_vertex[rim.front()];
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-    for (const Index on_rim : rim)
-      if ((mesh.positions[v] - mesh.positions[on_rim]).squaredNorm() <= width_m * width_m) {
-        held[v] = true;
-        break;
-      }
+    if (components.of_vertex[v] == piece && is_near_rim(mesh.positions[v])) held[v] = true;
 }
 
 }  // namespace
@@ -92,7 +94,7 @@ std::vector<Index> held_vertices(const geometry::TriMesh& garment, const Segment
   std::vector<bool> in_band(mesh.positions.size(), false);
   for (const Piece& piece : find_pieces(mesh, components, body))
     if (piece.worn && piece.top <= shoulder)
-      mark_band(mesh, piece.waistband, kWaistbandHeight * body.anatomy.stature_m, in_band);
+      mark_band(mesh, components, piece.waistband, kWaistbandHeight * body.anatomy.stature_m, in_band);
 
   std::vector<Index> held;
   for (std::size_t i = 0; i < garment.positions.size(); ++i) {
