@@ -18,6 +18,16 @@ constexpr float kSmoothing = 0.25f;
 // halves every few substeps, and arithmetic with subnormal floats takes a hundred times as long.
 constexpr float kNoDrift2 = 1e-20f;
 
+// The part of the path of a particle on the body that is farther than `most_m` from where its smoothed
+// velocity leads.
+Float4 excess(const SelfSubstep& substep, float most_m, const Point& at, std::size_t i,
+              const SelfContact& s) {
+  if (!substep.touching[i]) return splat(0.0f);
+  const Float4 off = xyz(load(at) - load(s.before[i]) - substep.length_s * load(s.paths.drift[i]));
+  const float length_m = std::sqrt(dot(off, off));
+  return length_m > most_m ? (1.0f - most_m / length_m) * off : splat(0.0f);
+}
+
 }  // namespace
 
 Expectation::Expectation(float since_s, float most, const SelfContact& s)
@@ -77,14 +87,29 @@ void expect_paths(const engine::Context& context, const SelfSubstep& substep, st
 void expect_contact_positions(const engine::Context& context, const SelfSubstep& substep, float most_m,
                               const Particles& p, SelfContact& s) {
   engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      store(s.now[i], load(p.point[i]) - excess(substep, most_m, p.point[i], i, s));
+  });
+}
+
+void hold_back_pulled(const engine::Context& context, const SelfSubstep& substep, float most_m, Particles& p,
+                      SelfContact& s) {
+  if (substep.friction_share.empty()) return;
+  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      s.now[i] = p.point[i];
-      if (!substep.touching[i]) continue;
-      const Float4 expected = xyz(load(s.before[i]) + substep.length_s * load(s.paths.drift[i]));
-      const Float4 off = xyz(load(p.point[i])) - expected;
-      const float length_m = std::sqrt(dot(off, off));
-      if (length_m > most_m) store(s.now[i], expected + (most_m / length_m) * off);
+      const bool stretched = substep.friction_share[i] < 1.0f;
+      const Float4 pulled = stretched ? excess(substep, most_m, p.point[i], i, s) : splat(0.0f);
+      store(s.paths.pulled[i], pulled);
+      store(p.point[i], load(p.point[i]) - pulled);
     }
+  });
+}
+
+void release_pulled(const engine::Context& context, const SelfSubstep& substep, Particles& p,
+                    SelfContact& s) {
+  if (substep.friction_share.empty()) return;
+  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) store(p.point[i], load(p.point[i]) + load(s.paths.pulled[i]));
   });
 }
 

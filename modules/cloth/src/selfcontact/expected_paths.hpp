@@ -52,6 +52,16 @@ void expect_paths(const engine::Context& context, const SelfSubstep& substep, st
 void expect_contact_positions(const engine::Context& context, const SelfSubstep& substep, float most_m,
                               const Particles& particles, SelfContact& self);
 
+/// Moves points back to at most `most_m` from where their smoothed velocities lead, for particles on a moving
+/// body that have stretched edges. The body undoes the rest of what these edges pull them by, so that it must
+/// not push other layers. Stores that rest in ExpectedPaths::pulled.
+void hold_back_pulled(const engine::Context& context, const SelfSubstep& substep, float most_m,
+                      Particles& particles, SelfContact& self);
+
+/// Adds ExpectedPaths::pulled to the points.
+void release_pulled(const engine::Context& context, const SelfSubstep& substep, Particles& particles,
+                    SelfContact& self);
+
 /// Updates the smoothed velocities (ExpectedPaths::drift) by those of a substep that ended at `now`.
 void update_drift(const engine::Context& context, float substep_s, SelfContact& self);
 

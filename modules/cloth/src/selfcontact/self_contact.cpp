@@ -9,6 +9,7 @@
 
 #include "base/tolerances.hpp"
 #include "selfcontact/expected_paths.hpp"
+#include "selfcontact/search.hpp"
 #include "selfcontact/tangles.hpp"
 
 namespace bodice::inline v0_1::cloth {
@@ -24,6 +25,9 @@ constexpr double kSlackOfEdge = 0.2, kSpareOfEdge = 1.0;
 
 // The speed at which layers that begin too close move apart: a fold's width in a few frames.
 constexpr float kRecovery_m_s = 0.1f;
+// The speed at which stretched edges may pull a particle on the body into other layers. Where a crease holds
+// cloth, they pull it by several centimeters a substep, and layers over it would be thrown about.
+constexpr float kPulled_m_s = 2.5f;
 // The speed at which triangles that cross are drawn apart.
 constexpr float kUntangle_m_s = 1.0f;
 
@@ -33,9 +37,6 @@ constexpr float kAllowedBeforeContact = 0.4f, kAllowedAfterContact = 0.499f;
 // The largest deviations that contact with a still and with a moving body is expected to cause, as shares of
 // the spare distance. A moving body brings layers together, and a smaller share would find pairs too late.
 constexpr float kExpectedOnStillBody = 0.2f, kExpectedOnMovingBody = 1.0f;
-// The share of the allowed deviation that a new expected path may leave a particle with.
-constexpr float kAllowedByNewPath = 0.9f;
-
 // Pairs that would cross are pushed apart in at most kHeldRounds rounds of kHeldSweeps sweeps each.
 constexpr int kHeldRounds = 6, kHeldSweeps = 4;
 // After kFirmRounds rounds of zones, a pair may cross if the body presses it from both sides or if it lies
@@ -55,31 +56,6 @@ constexpr std::size_t kMostListedALeaf = 1;
 
 // The most substeps of a frame in which crushed cloth tries in vain to come nearer to the body.
 constexpr int kFailedYields = 2;
-
-// Lists the groups on the expected paths, and the triangles that cross where these are not known.
-void search(const engine::Context& context, SelfContact& s) {
-  refit(context, s.mesh, {s.paths.start, s.paths.move, {}}, s.tree);
-  if (!s.crossings_known) {
-    find_tangles(context, s.mesh, s.tree, s.paths.start, s.tasks, s.tangles);
-    loosen(s.mesh, s.tangles, s.paths.start, s.loose);
-  }
-  s.searched = s.tree_has_sweeps = s.crossings_known = true;
-  find_groups(context, s.mesh, s.tree, s.gap_m + s.spare_m, s.gap_m, s.tasks);
-  s.moved_leaves.indexed = false;
-  s.strayed.listed = 0;
-  ++s.report.searches;
-}
-
-// Lists groups anew where those of the last search do not cover particles at `at`.
-void update_groups(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,
-                   float allowed, SelfContact& s) {
-  const float most_m = allowed * s.spare_m, since_s = s.paths.since_s + substep.length_s;
-  if (s.searched && !measure_deviations(context, at, since_s, most_m, s)) return;
-  if (s.searched && list_groups_of_strayed(since_s, most_m, s)) return;
-  expect_paths(context, substep, at, kAllowedByNewPath * most_m, s);
-  search(context, s);
-  measure_deviations(context, at, substep.length_s, most_m, s);
-}
 
 ContactSource source_of(const SelfContact& s) {
   return {s.mesh, {s.gap_m, s.slack_m, 0.0f, s.before, s.folded}, s.rest, s.moves, s.deviation_m, s.loose};
@@ -235,7 +211,8 @@ SelfContact make_self_contact(const geometry::TriMesh& mesh, const Particles& p,
   s.moved_leaves = make_moved_leaves(s.mesh, s.tasks.size());
   s.strayed = make_strayed_leaves(p.count(), s.mesh);
   s.moved.reserve(p.count()), s.paths.allowance_m.resize(p.count()), s.paths.deviation2.resize(p.count());
-  for (auto* points : {&s.rest, &s.before, &s.now, &s.paths.start, &s.paths.move, &s.paths.drift})
+  for (auto* points :
+       {&s.rest, &s.before, &s.now, &s.paths.start, &s.paths.move, &s.paths.pulled, &s.paths.drift})
     points->resize(p.count());
   for (std::size_t i = 0; i < p.count(); ++i) s.rest[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
   return s;
@@ -277,8 +254,10 @@ void push_apart(const engine::Context& context, const SelfSubstep& substep, Self
   update_groups(context, substep, s.now, kAllowedBeforeContact, s);
   find_moves(context, s);
   refresh_contacts(context, source_of(s), s.tasks);
+  hold_back_pulled(context, substep, kPulled_m_s * substep.length_s, p, s);
   push_pairs_apart(context, s.mesh, push_of(substep, s), s.tasks, p.point);
   untangle(s.mesh, s.tangles, {substep.touching, s.loose, kUntangle_m_s * substep.length_s}, s.now, p.point);
+  release_pulled(context, substep, p, s);
 }
 
 void hold_apart(const engine::Context& context, const SelfSubstep& substep, const ResolvedBody& body,

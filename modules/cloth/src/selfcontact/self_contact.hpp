@@ -32,6 +32,7 @@ struct ExpectedPaths {
   float since_s = 0.0f;            ///< time since the search
   std::vector<float> allowance_m;  ///< #P: the deviation that a particle may have beyond that of all others
   std::vector<float> deviation2;   ///< #P: squared deviations, square meters
+  std::vector<Point> pulled;       ///< #P: the part of a pull by constraints that the body will undo, meters
   std::vector<Point> drift;  ///< #P: smoothed velocities, which the next search expects, meters a second
 };
 
@@ -80,6 +81,9 @@ struct SelfSubstep {
   float friction = 0.0f;
   bool still_body = false;                 ///< whether the body stands still in this frame
   std::span<const std::uint8_t> touching;  ///< #P: whether the body pushed the particle in the substep before
+  /// #P, or empty where the body stands still: below 1 where an edge of the particle is stretched far beyond
+  /// the limit of its fabric (ContactState::friction_share).
+  std::span<const float> friction_share = {};
 };
 
 /// Pushes layers apart after constraints moved the points of the particles. The same bits for any number of

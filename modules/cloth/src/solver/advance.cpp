@@ -127,8 +127,10 @@ FrameShare share(int substep, const Plan& plan) {
 }
 
 SelfSubstep self_substep(const Plan& plan, const State& s) {
-  return {plan.substep_s, static_cast<float>(plan.simulated_s), static_cast<float>(s.fabric.friction),
-          !s.contacts.motion.moving, s.contacts.touching};
+  SelfSubstep substep{plan.substep_s, static_cast<float>(plan.simulated_s),
+                      static_cast<float>(s.fabric.friction), !s.contacts.motion.moving, s.contacts.touching};
+  if (s.contacts.motion.moving) substep.friction_share = s.contacts.friction_share;
+  return substep;
 }
 
 ResolvedBody resolved_body(const collision::Collider* collider, const FrameShare& share, const State& s) {
