@@ -52,3 +52,12 @@ TEST_CASE("a tunic that lies on the waistband of a skirt is not held with it") {
   REQUIRE(nearest_m < 0.008);  // half of the height of a waistband
   CHECK(tryon::held_vertices(both, skin) == held);
 }
+
+TEST_CASE("a closed piece has no waistband and is not held") {
+  const tryon::SegmentedSkin& skin = builtin_skin(kWearerVertices);
+  const geometry::Vec3 hip = 0.55 * skin.anatomy.stature_m * geometry::Vec3::UnitY();
+  geometry::TriMesh ball{{hip, hip, hip, hip}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+  for (int corner = 0; corner < 3; ++corner)
+    ball.positions[static_cast<std::size_t>(corner) + 1][corner] += 0.2;
+  CHECK(tryon::held_vertices(ball, skin).empty());
+}

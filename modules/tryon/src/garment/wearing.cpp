@@ -93,7 +93,7 @@ std::vector<Index> held_vertices(const geometry::TriMesh& garment, const Segment
   const double shoulder = armpit_height(body);
   std::vector<bool> in_band(mesh.positions.size(), false);
   for (const Piece& piece : find_pieces(mesh, components, body))
-    if (piece.worn && piece.top <= shoulder)
+    if (piece.worn && piece.top <= shoulder && !piece.waistband.empty())
       mark_band(mesh, components, piece.waistband, kWaistbandHeight * body.anatomy.stature_m, in_band);
 
   std::vector<Index> held;
