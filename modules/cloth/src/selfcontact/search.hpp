@@ -8,8 +8,8 @@
 namespace bodice::inline v0_1::cloth {
 
 /// Lists groups anew where those of the last search do not cover particles at `at`, which may deviate from
-/// their expected paths by the share `allowed` of the spare distance. Where a search finds no tangles known,
-/// it finds those, too.
+/// their expected paths by the share `allowed` of the spare distance. A search also finds the triangles that
+/// cross, unless they are known.
 void update_groups(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,
                    float allowed, SelfContact& self);
 
