@@ -81,8 +81,8 @@ struct SelfSubstep {
   float friction = 0.0f;
   bool still_body = false;                 ///< whether the body stands still in this frame
   std::span<const std::uint8_t> touching;  ///< #P: whether the body pushed the particle in the substep before
-  /// #P, or empty where the body stands still: below 1 where an edge of the particle is stretched far beyond
-  /// the limit of its fabric (ContactState::friction_share).
+  /// #P: below 1 where an edge of the particle is stretched far beyond the limit of its fabric
+  /// (ContactState::friction_share). Empty where none is, or where the body stands still.
   std::span<const float> friction_share = {};
 };
 

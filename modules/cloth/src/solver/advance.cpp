@@ -129,7 +129,7 @@ FrameShare share(int substep, const Plan& plan) {
 SelfSubstep self_substep(const Plan& plan, const State& s) {
   SelfSubstep substep{plan.substep_s, static_cast<float>(plan.simulated_s),
                       static_cast<float>(s.fabric.friction), !s.contacts.motion.moving, s.contacts.touching};
-  if (s.contacts.motion.moving) substep.friction_share = s.contacts.friction_share;
+  if (s.contacts.motion.moving && s.slipping > 0) substep.friction_share = s.contacts.friction_share;
   return substep;
 }
 
