@@ -62,7 +62,7 @@ option(BODICE_UNITY "Compile each folder of sources as one file (our own build)"
 # bodice_unite(<target> <root> [TOGETHER] <sources...>): compiles the sources of each folder below root, and of the folders
 # in it, as one file; TOGETHER, where names of no two folders meet: all of them. Kernels stay alone, since they are compiled
 # once for each instruction set. So does what needs oneTBB or spdlog: in one object with the rest of the engine it would
-# make libbodice_frame need them, too.
+# make libbodice_frame need them, too. JSON would be part of every program.
 function(bodice_unite target root)
   cmake_parse_arguments(PARSE_ARGV 2 arg "TOGETHER" "" "")
   if(NOT BODICE_UNITY)
@@ -70,7 +70,7 @@ function(bodice_unite target root)
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   foreach(source IN LISTS arg_UNPARSED_ARGUMENTS)
-    if(source MATCHES "/kernels[a-z0-9_]*[.]cpp$|/(tbb_executor|log_sinks)[.]cpp$")
+    if(source MATCHES "/kernels[a-z0-9_]*[.]cpp$|/(tbb_executor|log_sinks|json(_text)?)[.]cpp$")
       continue()
     endif()
     set(folder "")

@@ -3,9 +3,8 @@
 #include <fstream>
 #include <iterator>
 
-#include <nlohmann/json.hpp>
-
 #include <bodice/body/proportions.hpp>
+#include <bodice/engine/json.hpp>
 #include <bodice/engine/message.hpp>
 
 #include "profiles.hpp"
@@ -13,7 +12,7 @@
 namespace bodice::inline v0_1::body {
 namespace {
 
-using nlohmann::json;
+using engine::SortedJson;
 
 /// An Error that is thrown, so that the reading code needs no checks between its steps.
 struct BadProfile {
@@ -24,11 +23,11 @@ struct BadProfile {
   throw BadProfile{{code, std::move(message), std::move(remedy)}};
 }
 
-Proportions read_sex(const json& root, const char* sex, const std::string& file) {
+Proportions read_sex(const SortedJson& root, const char* sex, const std::string& file) {
   if (!root.contains(sex) || !root[sex].is_object())
     fail(engine::ErrorCode::kUnreadable, file + ": the object '" + sex + "' is missing.",
          "Give 'female' and 'male', each with all 15 ratios to stature.");
-  const json& table = root[sex];
+  const SortedJson& table = root[sex];
   Proportions result;
   for (const Measure& m : kMeasures) {
     const std::string where = file + ": " + sex + "." + m.name;
@@ -57,7 +56,7 @@ std::string read_text(const std::filesystem::path& file) {
 engine::Result<ProportionProfile> load_profile(const std::filesystem::path& file) {
   try {
     const std::string shown = file.string();
-    const json root = json::parse(read_text(file), nullptr, false);
+    const SortedJson root = SortedJson::parse_or_null(read_text(file));
     if (!root.is_object())
       fail(engine::ErrorCode::kUnreadable, shown + " is not a JSON object.",
            "Write one object with 'name', 'female' and 'male'.");

@@ -180,7 +180,7 @@ def source(eigen):
         # Functions that a header declares as well are overloads, and keep their name.
         clashing = sorted(name for name in hidden_names(texts[file])
                           if len(count[layer, name]) > 1 and not re.search(rf"\b{name}\(", writer.declared))
-        json = "nlohmann/json.hpp" in texts[file]
+        json = "nlohmann/json.hpp" in texts[file] or "engine/json.hpp" in texts[file]
         writer.add(f"// -- {file.relative_to(ROOT)}")
         if json:
             writer.add("#ifdef BODICE_WITH_JSON")

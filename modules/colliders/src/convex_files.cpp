@@ -4,10 +4,9 @@
 #include <map>
 #include <string>
 
-#include <nlohmann/json.hpp>
-
 #include <bodice/colliders/convex_pieces.hpp>
 #include <bodice/engine/base64.hpp>
+#include <bodice/engine/json.hpp>
 #include <bodice/engine/text.hpp>
 
 #include "bone_frame.hpp"
@@ -15,7 +14,7 @@
 namespace bodice::inline v0_1::colliders {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using engine::Json;
 
 static_assert(std::endian::native == std::endian::little,
               "glTF is little-endian: swap bytes on this machine");
@@ -99,7 +98,7 @@ std::string convex_gltf(const proxy::BodyProxy& proxy, std::span<const ConvexPie
       nodes.push_back({{"name", names[i]}, {"mesh", file["meshes"].size() - 1}, {"extras", extras}});
     }
     if (frame.name.empty()) {
-      roots.insert(roots.end(), children.begin(), children.end());
+      for (const Json& child : children) roots.push_back(child);
     } else {
       roots.push_back(nodes.size());
       nodes.push_back({{"name", frame.name}, {"matrix", columns_of(frame.to_skin)}, {"children", children}});
@@ -110,7 +109,7 @@ std::string convex_gltf(const proxy::BodyProxy& proxy, std::span<const ConvexPie
   file["buffers"] = Json::array({Json{
       {"byteLength", buffer.size()},
       {"uri", "data:application/octet-stream;base64," + engine::base64(std::as_bytes(std::span(buffer)))}}});
-  return file.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return file.dump({.indent = 1, .replaces_invalid = true}) + "\n";
 }
 
 std::string convex_obj(const proxy::BodyProxy& proxy, std::span<const ConvexPiece> pieces) {

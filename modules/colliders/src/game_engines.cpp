@@ -1,6 +1,6 @@
 // Unity and Unreal: left-handed files, each shape in the coordinates of its bone.
-#include <nlohmann/json.hpp>
 
+#include <bodice/engine/json.hpp>
 #include <bodice/engine/text.hpp>
 #include <bodice/geometry/smallest_turn.hpp>
 
@@ -9,7 +9,7 @@
 namespace bodice::inline v0_1::colliders {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using engine::Json;
 
 /// Importers of Unity negate x of everything, joints included.
 Json unity_point(const Vec3& v) {
@@ -92,7 +92,7 @@ std::string unity_text(const proxy::BodyProxy& proxy, std::span<const PlainShape
                               {"radiusA", tidy(local.radius_a)},
                               {"radiusB", tidy(local.radius_b)}});
   }
-  return file.dump(1) + "\n";
+  return file.dump({.indent = 1}) + "\n";
 }
 
 std::string unreal_text(const proxy::BodyProxy& proxy, std::span<const PlainShape> shapes) {
@@ -108,7 +108,7 @@ std::string unreal_text(const proxy::BodyProxy& proxy, std::span<const PlainShap
       if (shape.bone == bone) add_unreal_shape(shape, frame, geometry);
     file["SkeletalBodySetups"].push_back({{"BoneName", frame.name}, {"AggGeom", std::move(geometry)}});
   }
-  return file.dump(1) + "\n";
+  return file.dump({.indent = 1}) + "\n";
 }
 
 }  // namespace bodice::colliders

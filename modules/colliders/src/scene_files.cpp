@@ -1,6 +1,6 @@
 // Godot and VRM: right-handed, y up, meters, as bodice itself.
-#include <nlohmann/json.hpp>
 
+#include <bodice/engine/json.hpp>
 #include <bodice/engine/text.hpp>
 #include <bodice/geometry/smallest_turn.hpp>
 
@@ -9,7 +9,7 @@
 namespace bodice::inline v0_1::colliders {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using engine::Json;
 
 std::string number(double value) {
   std::string text;
@@ -122,7 +122,7 @@ std::string vrm_text(const proxy::BodyProxy& proxy, std::span<const PlainShape> 
       {"specVersion", "1.0"},
       {"colliders", colliders},
       {"colliderGroups", Json::array({Json{{"name", "body"}, {"colliders", members}}})}};
-  return file.dump(1) + "\n";
+  return file.dump({.indent = 1}) + "\n";
 }
 
 }  // namespace bodice::colliders

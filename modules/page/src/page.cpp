@@ -4,9 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include <bodice/collision/collider.hpp>
+#include <bodice/engine/json.hpp>
 #include <bodice/engine/parallel.hpp>
 #include <bodice/engine/text.hpp>
 #include <bodice/proxy/proxy_surface.hpp>
@@ -18,7 +17,7 @@
 namespace bodice::inline v0_1::page {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using engine::Json;
 using geometry::Vec3;
 
 constexpr std::size_t kMostVertices = 60000;
@@ -237,7 +236,7 @@ std::string page_html(const engine::Context& context, const PageSubject& subject
   std::string page(kPage);
   put(page, "<!--style-->", std::string(kStyle));
   put(page, "<!--still-->", still_svg(ellipsoids));
-  put(page, "<!--data-->", safe_in_html(data.dump(-1, ' ', true, Json::error_handler_t::replace)));
+  put(page, "<!--data-->", safe_in_html(data.dump({.ascii = true, .replaces_invalid = true})));
   put(page, "<!--script-->", std::string(kScene) + std::string(kPanel));
   return page;
 }

@@ -1,35 +1,34 @@
 #include <array>
 #include <filesystem>
 
-#include <nlohmann/json.hpp>
-
+#include <bodice/engine/json.hpp>
 #include <bodice/page/page.hpp>
 
 namespace bodice::inline v0_1::page {
 namespace {
 
-using nlohmann::json;
+using engine::SortedJson;
 
-const json& at(const json& object, const char* key) {
-  static const json kNothing;
-  const auto found = object.is_object() ? object.find(key) : object.end();
-  return object.is_object() && found != object.end() ? *found : kNothing;
+const SortedJson& at(const SortedJson& object, const char* key) {
+  static const SortedJson kNothing;
+  const SortedJson* found = object.find(key);
+  return found ? *found : kNothing;
 }
 
-std::string text(const json& value) {
+std::string text(const SortedJson& value) {
   return value.is_string() ? value.get<std::string>() : std::string();
 }
 
-double number(const json& value) {
+double number(const SortedJson& value) {
   return value.is_number() ? value.get<double>() : 0.0;
 }
 
-std::optional<double> number_if_there(const json& value) {
+std::optional<double> number_if_there(const SortedJson& value) {
   return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
 }
 
 /// The frame of positions in the report. A body of unknown unit was scaled; its landmarks are left out.
-std::optional<geometry::Frame> frame_of(const json& input) {
+std::optional<geometry::Frame> frame_of(const SortedJson& input) {
   constexpr std::array<std::pair<const char*, double>, 6> kUnits = {
       {{"m", 1.0}, {"dm", 0.1}, {"cm", 0.01}, {"mm", 0.001}, {"inch", 0.0254}, {"ft", 0.3048}}};
   const std::string unit = text(at(input, "unit")), up = text(at(input, "up"));
@@ -43,12 +42,12 @@ std::optional<geometry::Frame> frame_of(const json& input) {
   return std::nullopt;
 }
 
-std::vector<NamedPoint> landmarks_of(const json& report) {
+std::vector<NamedPoint> landmarks_of(const SortedJson& report) {
   std::vector<NamedPoint> points;
   const auto frame = frame_of(at(report, "input"));
   if (!frame) return points;
-  for (const json& landmark : at(report, "landmarks")) {
-    const json& position = at(landmark, "position");
+  for (const SortedJson& landmark : at(report, "landmarks")) {
+    const SortedJson& position = at(landmark, "position");
     if (!position.is_array() || position.size() != 3 || !(number(at(landmark, "confidence")) > 0.0)) continue;
     points.push_back({text(at(landmark, "name")),
                       frame->to_inside({number(position[0]), number(position[1]), number(position[2])})});
@@ -56,14 +55,15 @@ std::vector<NamedPoint> landmarks_of(const json& report) {
   return points;
 }
 
-DrapeCurves curves_of(const json& drape) {
+DrapeCurves curves_of(const SortedJson& drape) {
   DrapeCurves curves;
-  const json& penetration = at(drape, "penetration");
-  for (const json& depth : at(penetration, "of_frame_mm")) curves.penetration_mm.push_back(number(depth));
+  const SortedJson& penetration = at(drape, "penetration");
+  for (const SortedJson& depth : at(penetration, "of_frame_mm"))
+    curves.penetration_mm.push_back(number(depth));
   const auto frames = static_cast<double>(curves.penetration_mm.size());
   const double worst = number(at(penetration, "worst_frame"));
   if (worst >= 1.0 && worst <= frames) curves.worst_frame = static_cast<int>(worst);
-  for (const json& kept : at(drape, "kept"))
+  for (const SortedJson& kept : at(drape, "kept"))
     curves.kept.push_back({number(at(kept, "time_s")), number(at(at(kept, "proxy_error_mm"), "mean")),
                            number(at(at(kept, "penetration"), "max_mm"))});
   curves.dt_s = number(at(drape, "dt_s"));
@@ -73,7 +73,7 @@ DrapeCurves curves_of(const json& drape) {
 }  // namespace
 
 engine::Result<PageSubject> subject_of_report(const std::string& report, const std::string& file) {
-  const json read = json::parse(report, nullptr, false);
+  const SortedJson read = SortedJson::parse_or_null(report);
   if (!at(read, "input").is_object() || !at(read, "accuracy").is_object())
     return engine::Error{engine::ErrorCode::kUnreadable, "'" + file + "' is no report of bodice.",
                          "Give what --report of fit or drape wrote."};
@@ -82,14 +82,14 @@ engine::Result<PageSubject> subject_of_report(const std::string& report, const s
   subject.title = body.empty() ? "the built-in body" : std::filesystem::path(body).filename().string();
   subject.tier = text(at(read, "tier"));
   subject.hash = text(at(read, "hash"));
-  const json& gap = at(at(read, "accuracy"), "gap_mm");
+  const SortedJson& gap = at(at(read, "accuracy"), "gap_mm");
   subject.gap_mean_mm = number_if_there(at(gap, "mean"));
   subject.gap_p95_mm = number_if_there(at(gap, "p95"));
   subject.landmarks = landmarks_of(read);
-  for (const json& w : at(read, "warnings"))
+  for (const SortedJson& w : at(read, "warnings"))
     subject.warnings.push_back({text(at(w, "code")), text(at(w, "part")), text(at(w, "message")),
-                                text(at(w, "remedy")), at(w, "note") == json(true)});
-  for (const json& s : at(read, "stages"))
+                                text(at(w, "remedy")), at(w, "note") == SortedJson(true)});
+  for (const SortedJson& s : at(read, "stages"))
     subject.stages.push_back({text(at(s, "name")), number(at(s, "ms"))});
   if (at(read, "drape").is_object()) subject.drape = curves_of(at(read, "drape"));
   subject.report = report;

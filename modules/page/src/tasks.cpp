@@ -5,8 +5,7 @@
 #include <functional>
 #include <thread>
 
-#include <nlohmann/json.hpp>
-
+#include <bodice/engine/json.hpp>
 #include <bodice/engine/text.hpp>
 
 namespace bodice::inline v0_1::page {
@@ -50,13 +49,14 @@ engine::Result<std::vector<TaskSpan>> tasks_of_trace(const std::string& trace, c
   std::vector<TaskSpan> tasks;
   std::vector<double> threads;
   try {
-    const nlohmann::json all = nlohmann::json::parse(trace);
-    for (const nlohmann::json& event : all.at("traceEvents")) {
+    const engine::SortedJson all = engine::SortedJson::parse(trace);
+    for (const engine::SortedJson& event : all.at("traceEvents")) {
       if (event.at("ph") != "X") continue;
-      const double begin_us = event.at("ts"), us = event.at("dur"), thread = event.at("tid");
-      tasks.push_back({event.at("name"), 1e-3 * begin_us, 1e-3 * us, number_of(thread, threads)});
+      const auto number = [&](const char* key) { return event.at(key).get<double>(); };
+      tasks.push_back({event.at("name").get<std::string>(), 1e-3 * number("ts"), 1e-3 * number("dur"),
+                       number_of(number("tid"), threads)});
     }
-  } catch (const nlohmann::json::exception&) {
+  } catch (const engine::JsonError&) {
     return no_trace;
   }
   if (tasks.empty()) return no_trace;

@@ -3,14 +3,14 @@
 #include <cmath>
 #include <utility>
 
-#include <nlohmann/json.hpp>
+#include <bodice/engine/json.hpp>
 
 namespace bodice::inline v0_1::batch {
 namespace {
 
 using engine::Error;
 using engine::ErrorCode;
-using Json = nlohmann::json;
+using Json = engine::SortedJson;
 
 Error unreadable(std::string message, std::string remedy) {
   return {ErrorCode::kUnreadable, std::move(message), std::move(remedy)};
@@ -34,9 +34,12 @@ bool is_plain(const Json& value) {
 }  // namespace
 
 engine::Result<Job> job_from_json(std::string_view line) {
-  const Json json = Json::parse(line, nullptr, false);
-  if (json.is_discarded())
+  Json json;
+  try {
+    json = Json::parse(line);
+  } catch (const engine::JsonError&) {
     return unreadable("This line is not JSON.", "Write one JSON object a line, as {\"body\": \"a.obj\"}.");
+  }
   if (!json.is_object())
     return unreadable("This line is no JSON object.", "Write one a line, as {\"body\": \"a.obj\"}.");
   Job job;

@@ -8,7 +8,7 @@
 namespace bodice::inline v0_1::batch {
 namespace {
 
-using nlohmann::json;
+using engine::SortedJson;
 
 constexpr std::pair<Failure, const char*> kNames[] = {
     {Failure::kNone, "none"},     {Failure::kError, "error"},   {Failure::kWrite, "write"},
@@ -34,7 +34,7 @@ bool may_differ_next_time(Failure failure) {
   return failure >= Failure::kCrash;
 }
 
-json json_of(const Outcome& outcome) {
+SortedJson json_of(const Outcome& outcome) {
   return {{"failure", name(outcome.failure)},
           {"there", outcome.there},
           {"reason", outcome.reason},
@@ -44,7 +44,7 @@ json json_of(const Outcome& outcome) {
           {"facts", outcome.facts}};
 }
 
-Outcome outcome_from(const json& j) {
+Outcome outcome_from(const SortedJson& j) {
   Outcome outcome;
   outcome.failure = failure_from_name(j.value("failure", "error"));
   outcome.there = j.value("there", false);
@@ -52,22 +52,22 @@ Outcome outcome_from(const json& j) {
   outcome.seconds = j.value("seconds", 0.0);
   outcome.cpu_s = j.value("cpu_s", 0.0);
   outcome.memory_mb = j.value("memory_mb", 0.0);
-  outcome.facts = j.value("facts", json::object());
+  outcome.facts = j.value("facts", SortedJson::object());
   return outcome;
 }
 
-json json_of(const JobFacts& facts) {
-  json warnings = json::array();
+SortedJson json_of(const JobFacts& facts) {
+  SortedJson warnings = SortedJson::array();
   for (const engine::Warning& w : facts.warnings)
     warnings.push_back(
         {{"code", w.code}, {"part", w.part}, {"message", w.message}, {"remedy", w.remedy}, {"note", w.note}});
-  json numbers = json::object();
+  SortedJson numbers = SortedJson::object();
   for (const auto& [key, value] : facts.numbers) numbers[key] = value;
   return {{"seed", facts.seed}, {"warnings", std::move(warnings)}, {"numbers", std::move(numbers)}};
 }
 
-std::string one_line(const json& value) {
-  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+std::string one_line(const SortedJson& value) {
+  return value.dump({.replaces_invalid = true});
 }
 
 Outcome outcome_of(const engine::Error& error) {

@@ -3,9 +3,8 @@
 
 #include <string>
 
-#include <nlohmann/json.hpp>
-
 #include <bodice/batch/work.hpp>
+#include <bodice/engine/json.hpp>
 
 #include "process/process.hpp"
 
@@ -25,15 +24,15 @@ struct Outcome {
   bool there = false;  ///< another process had published the result first
   std::string reason;  ///< why it failed, in a sentence
   double seconds = 0.0, cpu_s = 0.0, memory_mb = 0.0;
-  nlohmann::json facts = nlohmann::json::object();  ///< seed, warnings, numbers
+  engine::SortedJson facts = engine::SortedJson::object();  ///< seed, warnings, numbers
 };
 
-nlohmann::json json_of(const Outcome& outcome);
-Outcome outcome_from(const nlohmann::json& json);
-nlohmann::json json_of(const JobFacts& facts);
+engine::SortedJson json_of(const Outcome& outcome);
+Outcome outcome_from(const engine::SortedJson& json);
+engine::SortedJson json_of(const JobFacts& facts);
 
 /// One line, in which bytes that are no UTF-8, as of file names, are replaced.
-std::string one_line(const nlohmann::json& value);
+std::string one_line(const engine::SortedJson& value);
 
 Outcome outcome_of(const engine::Error& error);
 /// The outcome for a process that ended without one of its own. `limit_mb` (0: none) is what its memory was

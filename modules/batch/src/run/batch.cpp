@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What the first line of a log states. `manifest` and `started_ns` are what a summary goes by.
-nlohmann::json header(const Work& work, const BatchOptions& options, const Manifest& manifest) {
+engine::SortedJson header(const Work& work, const BatchOptions& options, const Manifest& manifest) {
   std::error_code ignored;
   const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
   return {{"run",

@@ -10,7 +10,7 @@
 namespace bodice::inline v0_1::batch {
 namespace {
 
-using nlohmann::json;
+using engine::SortedJson;
 
 constexpr int kLook_ms = 200;        // between looks at cancellation and deadlines
 constexpr double kPatience_s = 5.0;  // for a fitter to clean up and end
@@ -170,7 +170,7 @@ void Coordinator::wait() {
     const auto current = crew++;
     if (seen->revents == 0) continue;
     const bool open = current->reader.read_from(current->channel.descriptor());
-    while (const auto line = current->reader.next()) hear(*current, json::parse(*line));
+    while (const auto line = current->reader.next()) hear(*current, SortedJson::parse(*line));
     if (!open && bury(*current)) crews_.erase(current);
   }
   stop_late_fits();
@@ -183,7 +183,7 @@ void Coordinator::stop_late_fits() {
       crew.late = true, ::kill(crew.process, SIGKILL);
 }
 
-void Coordinator::hear(Crew& crew, const json& message) {
+void Coordinator::hear(Crew& crew, const SortedJson& message) {
   if (!crew.prepared) {
     crew.prepared = outcome_from(message);
     return;
@@ -200,16 +200,16 @@ void Coordinator::hear(Crew& crew, const json& message) {
 void Coordinator::finish(Task task, const Outcome& outcome, Crew& crew) {
   if (outcome.failure == Failure::kNone) {
     ++(outcome.there ? result_.end.there : result_.end.done);
-    json line = {{"line", task.job.line},
-                 {"outcome", outcome.there ? "there" : "done"},
-                 {"folder", ResultStore::folder_of(task.key)},
-                 {"seconds", outcome.seconds},
-                 {"cpu_seconds", outcome.cpu_s},
-                 {"shared_seconds", crew.prepared->seconds},
-                 {"shared_cpu_seconds", crew.prepared->cpu_s},
-                 {"memory_mb", outcome.memory_mb},
-                 {"attempts", task.attempts},
-                 {"job", task.job.values}};
+    SortedJson line = {{"line", task.job.line},
+                       {"outcome", outcome.there ? "there" : "done"},
+                       {"folder", ResultStore::folder_of(task.key)},
+                       {"seconds", outcome.seconds},
+                       {"cpu_seconds", outcome.cpu_s},
+                       {"shared_seconds", crew.prepared->seconds},
+                       {"shared_cpu_seconds", crew.prepared->cpu_s},
+                       {"memory_mb", outcome.memory_mb},
+                       {"attempts", task.attempts},
+                       {"job", task.job.values}};
     line.update(outcome.facts);
     return write(std::move(line));
   }
@@ -268,7 +268,7 @@ void Coordinator::dismiss(Crew& crew) {
   crew.process = -1;
 }
 
-void Coordinator::write(json line) {
+void Coordinator::write(SortedJson line) {
   if (fatal_) return;
   if (auto done = log_.add(line); !done) fatal_ = done.error();
 }
@@ -278,13 +278,13 @@ void Coordinator::write_failure(std::size_t index, const Task* task, const Outco
   const std::size_t number = context_.manifest.line_number(index);
   if (result_.first_failures.size() < kNamedFailures)
     result_.first_failures.push_back("line " + std::to_string(number) + ": " + outcome.reason);
-  json line = {{"line", number},
-               {"outcome", "failed"},
-               {"failure", name(outcome.failure)},
-               {"reason", outcome.reason},
-               {"seconds", outcome.seconds},
-               {"memory_mb", outcome.memory_mb},
-               {"attempts", task ? task->attempts : 0}};
+  SortedJson line = {{"line", number},
+                     {"outcome", "failed"},
+                     {"failure", name(outcome.failure)},
+                     {"reason", outcome.reason},
+                     {"seconds", outcome.seconds},
+                     {"memory_mb", outcome.memory_mb},
+                     {"attempts", task ? task->attempts : 0}};
   if (task) line["job"] = task->job.values;
   write(std::move(line));
 }

@@ -57,7 +57,7 @@ class Coordinator {
   int busy() const;
 
   void wait();
-  void hear(Crew& crew, const nlohmann::json& message);
+  void hear(Crew& crew, const engine::SortedJson& message);
   void finish(Task task, const Outcome& outcome, Crew& crew);
   /// Handles a fitter that has ended. Returns whether its crew is done.
   bool bury(Crew& crew);
@@ -65,7 +65,7 @@ class Coordinator {
   void dismiss(Crew& crew);
   void stop_late_fits();
 
-  void write(nlohmann::json line);
+  void write(engine::SortedJson line);
   void write_failure(std::size_t index, const Task* task, const Outcome& outcome);
   void show();
 

@@ -17,7 +17,7 @@ namespace bodice::inline v0_1::batch {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
+using engine::SortedJson;
 
 /// A job in a process of its own, and then its result in another one that waits for the disk.
 struct Running {
@@ -105,7 +105,7 @@ class Fitter {
   /// Reads what a job sends. Returns false when its process has ended.
   bool hear(Running& job) {
     const bool open = job.reader.read_from(job.channel.descriptor());
-    while (const auto line = job.reader.next()) job.outcome = outcome_from(json::parse(*line));
+    while (const auto line = job.reader.next()) job.outcome = outcome_from(SortedJson::parse(*line));
     return open;
   }
 
@@ -147,9 +147,9 @@ class Fitter {
     const engine::UnflushedWrites until_published;
     Outcome outcome = guarded(limit_mb(), [&] { return run(job, running.part); });
     if (outcome.failure != Failure::kNone) return outcome;
-    json about = {{"key", running.key}, {"version", context_.work.version()}, {"job", job.values}};
+    SortedJson about = {{"key", running.key}, {"version", context_.work.version()}, {"job", job.values}};
     about.update(outcome.facts);
-    const std::string text = about.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+    const std::string text = about.dump({.indent = 1, .replaces_invalid = true}) + "\n";
     if (auto done = engine::write_file(running.part / "job.json", std::string_view(text)); !done)
       return outcome_of(done.error());
     return outcome;

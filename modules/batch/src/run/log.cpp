@@ -48,7 +48,7 @@ engine::Result<Log> Log::open(const fs::path& folder, const std::string& name) {
   }
 }
 
-engine::Result<void> Log::add(const nlohmann::json& line) {
+engine::Result<void> Log::add(const engine::SortedJson& line) {
   const std::string text = one_line(line) + "\n";
   ssize_t count;
   errno = ENOSPC;  // what a write of a part of the line means

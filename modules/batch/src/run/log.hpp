@@ -3,8 +3,7 @@
 
 #include <filesystem>
 
-#include <nlohmann/json.hpp>
-
+#include <bodice/engine/json.hpp>
 #include <bodice/engine/result.hpp>
 
 namespace bodice::inline v0_1::batch {
@@ -20,7 +19,7 @@ class Log {
   Log& operator=(Log&&) = delete;
   ~Log();
   const std::filesystem::path& file() const { return file_; }
-  engine::Result<void> add(const nlohmann::json& line);
+  engine::Result<void> add(const engine::SortedJson& line);
 
  private:
   Log(std::filesystem::path file, int descriptor);

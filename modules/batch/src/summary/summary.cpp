@@ -6,8 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include <bodice/engine/json.hpp>
 #include <bodice/engine/write_file.hpp>
 
 #include "summary/summary_page.hpp"
@@ -17,7 +16,7 @@ namespace bodice::inline v0_1::batch {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
+using engine::SortedJson;
 
 /// A field as CSV has it (RFC 4180).
 std::string field(const std::string& text) {
@@ -35,24 +34,25 @@ std::string csv_of(const Summary& summary) {
   for (const std::string& name : summary.numbers) text += "," + field(name);
   text += "\n";
   // A number or text without quotes.
-  const auto plain = [](const json& value) {
+  const auto plain = [](const SortedJson& value) {
     return value.is_null() ? std::string() : value.is_string() ? value.get<std::string>() : value.dump();
   };
   for (const Row& row : summary.rows) {
-    const json about = row.about();
+    const SortedJson about = row.about();
     text += field(row.manifest) + "," + std::to_string(row.line);
     for (const char* name : {"outcome", "failure", "reason", "folder", "seconds", "cpu_seconds",
                              "shared_seconds", "shared_cpu_seconds", "memory_mb", "attempts", "seed"})
-      text += "," + field(plain(about.value(name, json())));
-    text += "," + std::to_string(about.value("warnings", json::array()).size());
+      text += "," + field(plain(about.value(name, SortedJson())));
+    text += "," + std::to_string(about.value("warnings", SortedJson::array()).size());
     for (const std::string& name : summary.inputs) {
       std::string values;
-      for (const json& value : about.value("job", json::object()).value(name, json::array()))
+      for (const SortedJson& value :
+           about.value("job", SortedJson::object()).value(name, SortedJson::array()))
         values += (values.empty() ? "" : ";") + plain(value);
       text += "," + field(values);
     }
     for (const std::string& name : summary.numbers)
-      text += "," + field(plain(about.value("numbers", json::object()).value(name, json())));
+      text += "," + field(plain(about.value("numbers", SortedJson::object()).value(name, SortedJson())));
     text += "\n";
   }
   return text;

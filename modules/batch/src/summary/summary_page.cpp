@@ -12,7 +12,7 @@ namespace bodice::inline v0_1::batch {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
+using engine::SortedJson;
 
 constexpr std::size_t kFailuresShown = 1000;
 
@@ -63,12 +63,12 @@ std::string picture(const fs::path& file) {
 }
 
 /// The job as its line has it: "body a.obj, garment b.obj".
-std::string words_of(const json& about) {
+std::string words_of(const SortedJson& about) {
   std::string text;
-  const json job = about.value("job", json::object());
+  const SortedJson job = about.value("job", SortedJson::object());
   for (const auto& [name, values] : job.items()) {
     text += (text.empty() ? "" : ", ") + name;
-    for (const json& value : values) text += " " + value.get<std::string>();
+    for (const SortedJson& value : values) text += " " + value.get<std::string>();
   }
   return text;
 }
@@ -81,7 +81,7 @@ void add_failures(const Summary& summary, std::size_t failed, std::string& page)
   for (const Row& row : summary.rows) {
     if (!row.is_failure || shown == kFailuresShown) break;
     ++shown;
-    const json about = row.about();
+    const SortedJson about = row.about();
     page += "<tr><td>" + std::to_string(row.line) + "<td>" + escaped(about.value("failure", "")) +
             "<td class=why>" + escaped(about.value("reason", "")) + "<td><small>" + escaped(words_of(about)) +
             "</small></tr>\n";
@@ -98,11 +98,11 @@ std::string millimeters(double mm) {
 }
 
 void add_result(const fs::path& out, const Row& row, std::string& page) {
-  const json about = row.about();
+  const SortedJson about = row.about();
   const std::string folder = about.value("folder", "");
   page += "<a href=\"" + escaped(folder) + "/\">" + picture(out / folder / kThumbnail) + "<b>" +
           millimeters(row.error_mm) + " mm</b> line " + std::to_string(row.line);
-  if (const std::size_t warnings = about.value("warnings", json::array()).size())
+  if (const std::size_t warnings = about.value("warnings", SortedJson::array()).size())
     page += ", " + std::to_string(warnings) + (warnings == 1 ? " warning" : " warnings");
   page += "<small>" + escaped(words_of(about)) + "</small></a>\n";
 }

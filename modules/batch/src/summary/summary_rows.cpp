@@ -14,7 +14,7 @@ namespace bodice::inline v0_1::batch {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
+using engine::SortedJson;
 
 /// A log with a header that could be read.
 struct RunLog {
@@ -25,9 +25,9 @@ struct RunLog {
 };
 
 /// The next line as JSON; a line that a killed run did not end is passed over.
-bool next(std::ifstream& stream, json& line) {
+bool next(std::ifstream& stream, SortedJson& line) {
   for (std::string text; std::getline(stream, text);) {
-    line = json::parse(text, nullptr, false);
+    line = SortedJson::parse_or_null(text);
     if (line.is_object()) return true;
   }
   return false;
@@ -38,9 +38,9 @@ std::vector<RunLog> logs_by_time(const fs::path& folder) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     std::ifstream stream(entry.path());
-    json line;
+    SortedJson line;
     if (entry.path().extension() != ".jsonl" || !next(stream, line) || !line.contains("run")) continue;
-    const json& run = line["run"];
+    const SortedJson& run = line["run"];
     logs.push_back({entry.path(), run.value("manifest", ""), run.value("started_ns", std::int64_t{0}),
                     run.value("lines", std::size_t{0})});
   }
@@ -49,9 +49,9 @@ std::vector<RunLog> logs_by_time(const fs::path& folder) {
 }
 
 /// The facts of a result, as its folder has them: for results without a log.
-json facts_in(const fs::path& folder) {
+SortedJson facts_in(const fs::path& folder) {
   std::ifstream stream(folder / "job.json");
-  return json::parse(stream, nullptr, false);
+  return SortedJson::parse_or_null(std::string(std::istreambuf_iterator<char>(stream), {}));
 }
 
 /// Reads rows of logs from the oldest on, so that later ones replace them.
@@ -61,7 +61,7 @@ class Reader {
 
   void add(const RunLog& log) {
     std::ifstream stream(log.file);
-    json line;
+    SortedJson line;
     auto& rows = rows_[log.manifest];
     rows.erase(rows.upper_bound(log.lines), rows.end());  // the manifest had more lines in an earlier run
     while (next(stream, line)) {
@@ -79,14 +79,15 @@ class Reader {
     std::set<std::string> inputs, numbers;
     for (auto& [manifest, rows] : rows_)
       for (auto& [number, text] : rows) {
-        json about = json::parse(text, nullptr, false);
+        SortedJson about = SortedJson::parse_or_null(text);
         about["manifest"] = manifest;
         if (about.value("outcome", "") != "failed" && !is_there(about)) {
           about["outcome"] = "failed", about["failure"] = "lost";
           about["reason"] = "Its result is no longer there. Start the batch again.";
           ++summary.lost;
         }
-        const json values = about.value("numbers", json::object()), job = about.value("job", json::object());
+        const SortedJson values = about.value("numbers", SortedJson::object()),
+                         job = about.value("job", SortedJson::object());
         for (const auto& [name, value] : job.items()) inputs.insert(name);
         for (const auto& [name, value] : values.items()) numbers.insert(name);
         summary.rows.push_back({manifest, number, about.value("outcome", "") == "failed",
@@ -99,19 +100,19 @@ class Reader {
   }
 
  private:
-  bool is_there(const json& about) const {
+  bool is_there(const SortedJson& about) const {
     return ::access((out_ / about.value("folder", "")).c_str(), F_OK) == 0;
   }
 
   /// Adds what the run that made the result wrote of it. `before` is the row so far.
-  void add_facts(json& line, const std::string& before) {
+  void add_facts(SortedJson& line, const std::string& before) {
     const std::string folder = line.value("folder", "");
     const auto of_folder = [&folder](const std::string& text) {
-      json row = text.empty() ? json() : json::parse(text, nullptr, false);
+      SortedJson row = text.empty() ? SortedJson() : SortedJson::parse_or_null(text);
       const bool fits = row.is_object() && row.value("folder", "") == folder && row.contains("seconds");
-      return fits ? row : json();
+      return fits ? row : SortedJson();
     };
-    json facts = of_folder(before);
+    SortedJson facts = of_folder(before);
     if (const auto made = made_.find(folder); !facts.is_object() && made != made_.end())
       facts = of_folder(rows_[made->second.first][made->second.second]);
     if (!facts.is_object()) facts = facts_in(out_ / folder);

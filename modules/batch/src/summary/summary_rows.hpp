@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include <bodice/engine/json.hpp>
 #include <bodice/engine/result.hpp>
 
 namespace bodice::inline v0_1::batch {
@@ -20,7 +19,7 @@ struct Row {
   /// The log's line as text, since a million of them parsed would fill the memory. A result that was there
   /// has the facts of the run that made it.
   std::string text;
-  nlohmann::json about() const { return nlohmann::json::parse(text, nullptr, false); }
+  engine::SortedJson about() const { return engine::SortedJson::parse_or_null(text); }
 };
 
 struct Summary {

@@ -158,8 +158,7 @@ std::size_t GlbBuilder::size(const char* array) const {
 std::string GlbBuilder::finish() const {
   Json document = document_;
   document["buffers"] = Json::array({Json{{"byteLength", buffer_.size()}}});
-  std::string text =
-      document.dump(-1, ' ', false, Json::error_handler_t::replace);  // names need not be UTF-8
+  std::string text = document.dump({.replaces_invalid = true});  // names need not be UTF-8
   pad_to_four(text, ' ');
   const std::size_t length = 12 + 8 + text.size() + 8 + buffer_.size();
   if (length > std::numeric_limits<std::uint32_t>::max()) return {};

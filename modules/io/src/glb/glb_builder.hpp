@@ -9,12 +9,12 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <bodice/engine/json.hpp>
 #include <bodice/geometry/types.hpp>
-#include <nlohmann/json.hpp>
 
 namespace bodice::inline v0_1::io {
 
-using Json = nlohmann::ordered_json;
+using engine::Json;
 using Vec3f = Eigen::Vector3f;
 
 class GlbBuilder {

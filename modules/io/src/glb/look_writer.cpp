@@ -14,7 +14,7 @@ void add_images(const Materials& materials, GlbBuilder& glb) {
   }
 }
 
-void use_extensions(const nlohmann::json& object, GlbBuilder& glb) {
+void use_extensions(const engine::SortedJson& object, GlbBuilder& glb) {
   std::vector<std::string> names;
   collect_extensions(object, names);
   for (const std::string& name : names) glb.use(name);
@@ -26,11 +26,11 @@ std::vector<std::size_t> add_materials(const Materials& materials, GlbBuilder& g
   const std::size_t first_image = glb.size("images"), first_sampler = glb.size("samplers"),
                     first_texture = glb.size("textures");
   add_images(materials, glb);
-  for (const nlohmann::json& sampler : materials.samplers) {
+  for (const engine::SortedJson& sampler : materials.samplers) {
     use_extensions(sampler, glb);
     glb.add("samplers", Json(sampler));
   }
-  for (nlohmann::json texture : materials.textures) {
+  for (engine::SortedJson texture : materials.textures) {
     renumber_images(texture, [&](std::size_t at, bool) { return std::optional(first_image + at); });
     if (texture.contains("sampler"))
       texture["sampler"] = first_sampler + texture["sampler"].get<std::size_t>();
@@ -38,7 +38,7 @@ std::vector<std::size_t> add_materials(const Materials& materials, GlbBuilder& g
     glb.add("textures", Json(texture));
   }
   std::vector<std::size_t> added;
-  for (nlohmann::json material : materials.materials) {
+  for (engine::SortedJson material : materials.materials) {
     renumber_textures(material, [&](std::size_t at) { return std::optional(first_texture + at); });
     use_extensions(material, glb);
     added.push_back(glb.add("materials", Json(material)));

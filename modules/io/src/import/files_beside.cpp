@@ -1,5 +1,5 @@
-#include <nlohmann/json.hpp>
 
+#include <bodice/engine/json.hpp>
 #include <bodice/io/import.hpp>
 
 #include "import/look/scene_look.hpp"
@@ -14,10 +14,10 @@ namespace bodice::inline v0_1::io {
 namespace {
 
 std::vector<std::filesystem::path> files_of_gltf(const std::filesystem::path& file) {
-  const nlohmann::json document = nlohmann::json::parse(split_glb(read_text(file)).json, nullptr, false);
+  const engine::SortedJson document = engine::SortedJson::parse_or_null(split_glb(read_text(file)).json);
   std::vector<std::filesystem::path> files;
   for (const char* list : {"buffers", "images"})
-    for (const nlohmann::json& item : array_at(document, list)) {
+    for (const engine::SortedJson& item : array_at(document, list)) {
       const std::string uri = text_at(item, "uri");
       if (uri.empty()) continue;  // the binary chunk of a GLB
       if (auto beside = file_of_uri(uri, file.parent_path())) files.push_back(std::move(*beside));

@@ -9,71 +9,67 @@ namespace bodice::inline v0_1::io {
 
 namespace {
 
-using nlohmann::json;
+using engine::SortedJson;
 
 /// Objects of real materials are at most four deep.
 constexpr int kMostDepth = 16;
 
-void renumber_textures_in(json& object,
+void renumber_textures_in(SortedJson& object,
                           const std::function<std::optional<std::size_t>(std::size_t)>& renumber, int depth) {
   if (!object.is_object() || depth > kMostDepth) return;
-  for (auto item = object.begin(); item != object.end();) {
-    json& value = item.value();
-    if (item.key().ends_with("Texture") && value.is_object() && value.contains("index")) {
-      const json& index = value["index"];
+  object.erase_if([&](SortedJson::Member& member) {
+    if (member.key.ends_with("Texture") && member.value.contains("index")) {
+      SortedJson& index = member.value["index"];
       const auto now = index.is_number_unsigned() ? renumber(index.get<std::size_t>()) : std::nullopt;
-      if (!now) {
-        item = object.erase(item);
-        continue;
-      }
-      value["index"] = *now;
+      if (!now) return true;
+      index = *now;
     }
-    renumber_textures_in(value, renumber, depth + 1);
-    ++item;
-  }
+    renumber_textures_in(member.value, renumber, depth + 1);
+    return false;
+  });
 }
 
 }  // namespace
 
-void renumber_textures(json& material,
+void renumber_textures(SortedJson& material,
                        const std::function<std::optional<std::size_t>(std::size_t)>& renumber) {
   renumber_textures_in(material, renumber, 0);
 }
 
-bool renumber_images(json& texture,
+bool renumber_images(SortedJson& texture,
                      const std::function<std::optional<std::size_t>(std::size_t, bool)>& renumber) {
   bool left = false;
-  const auto visit = [&](json& holder, bool core) {
-    const auto source = holder.find("source");
-    if (source == holder.end()) return;
+  const auto visit = [&](SortedJson& holder, bool core) {
+    SortedJson* const source = holder.find("source");
+    if (!source) return;
     const auto now = source->is_number_unsigned() ? renumber(source->get<std::size_t>(), core) : std::nullopt;
     left = left || now;
     if (now)
       *source = *now;
     else
-      holder.erase(source);
+      holder.erase("source");
   };
   if (!texture.is_object()) return false;
   visit(texture, true);
-  const auto extensions = texture.find("extensions");
-  if (extensions == texture.end() || !extensions->is_object()) return left;
-  for (auto extension = extensions->begin(); extension != extensions->end();) {
-    if (extension->is_object()) visit(*extension, false);
-    extension = extension->empty() ? extensions->erase(extension) : std::next(extension);
-  }
+  SortedJson* const extensions = texture.find("extensions");
+  if (!extensions || !extensions->is_object()) return left;
+  extensions->erase_if([&](SortedJson::Member& extension) {
+    if (extension.value.is_object()) visit(extension.value, false);
+    return extension.value.empty();
+  });
   if (extensions->empty()) texture.erase("extensions");
   return left;
 }
 
-void collect_extensions(const json& object, std::vector<std::string>& names) {
-  std::vector<const json*> waiting{&object};
+void collect_extensions(const SortedJson& object, std::vector<std::string>& names) {
+  std::vector<const SortedJson*> waiting{&object};
   while (!waiting.empty()) {
-    const json& now = *waiting.back();
+    const SortedJson& now = *waiting.back();
     waiting.pop_back();
     if (!now.is_object()) continue;
     for (const auto& [key, value] : now.items()) {
       if (key == "extensions" && value.is_object())
-        for (const auto& extension : value.items()) names.push_back(extension.key());
+        for (const auto& extension : value.items()) names.push_back(extension.key);
       waiting.push_back(&value);
     }
   }

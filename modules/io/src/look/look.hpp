@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <bodice/engine/json.hpp>
 
 namespace bodice::inline v0_1::io {
 
@@ -22,7 +22,7 @@ struct LookImage {
 
 /// Materials in the words of glTF. Their numbers of textures, samplers and images count in these lists.
 struct Materials {
-  std::vector<nlohmann::json> materials, textures, samplers;
+  std::vector<engine::SortedJson> materials, textures, samplers;
   std::vector<LookImage> images;
   std::vector<std::string> required;  ///< extensions of glTF that a reader must support
 };
@@ -38,17 +38,17 @@ struct Look {
 
 /// Replaces the number of each texture that a material refers to. Where `renumber` gives none, the reference
 /// is dropped. By glTF's rule the key of a reference ends with "Texture", in extensions as well.
-void renumber_textures(nlohmann::json& material,
+void renumber_textures(engine::SortedJson& material,
                        const std::function<std::optional<std::size_t>(std::size_t)>& renumber);
 
 /// Replaces the number of each image that a texture refers to. Where `renumber` gives none, the reference is
 /// dropped; its second argument is whether the image belongs to the core of glTF and not to an extension.
 /// Returns whether a reference is left.
-bool renumber_images(nlohmann::json& texture,
+bool renumber_images(engine::SortedJson& texture,
                      const std::function<std::optional<std::size_t>(std::size_t, bool)>& renumber);
 
 /// The names of all extensions in an object.
-void collect_extensions(const nlohmann::json& object, std::vector<std::string>& names);
+void collect_extensions(const engine::SortedJson& object, std::vector<std::string>& names);
 
 /// The MIME type of an image by its first bytes: PNG, JPEG, WebP or KTX2; empty for anything else.
 std::string_view image_type(std::string_view bytes);

@@ -8,9 +8,8 @@
 #include <fstream>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include <bodice/engine/hash.hpp>
+#include <bodice/engine/json.hpp>
 #include <bodice/engine/write_file.hpp>
 #include <bodice/proxy/base_pose.hpp>
 #include <bodice/proxy/proxy_file.hpp>
@@ -104,13 +103,11 @@ engine::Result<BasePoses> get_bases(const BodyProxy& bound, std::span<const std:
 std::string json_with_bases(const ProxyWithBases& both) {
   constexpr std::string_view kEnd = "\n}\n";
   std::string text = to_json(both.proxy);
-  nlohmann::ordered_json names = nlohmann::ordered_json::array();
+  engine::Json names = engine::Json::array();
   for (const auto& base : both.bases) names.push_back(base->name);
-  const nlohmann::ordered_json member = {{"names", names}, {"bytes", to_hex(bases_bytes(both))}};
+  const engine::Json member = {{"names", names}, {"bytes", to_hex(bases_bytes(both))}};
   text.erase(text.size() - kEnd.size());
-  return text + ",\n \"" + kJsonKey +
-         "\": " + member.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
-         std::string(kEnd);
+  return text + ",\n \"" + kJsonKey + "\": " + member.dump({.replaces_invalid = true}) + std::string(kEnd);
 }
 
 /// The base poses' bytes of a file that load() has read without fault.
@@ -122,7 +119,7 @@ std::vector<std::byte> bases_in(const fs::path& file) {
     const auto section = base_section(bytes);
     return {section.begin(), section.end()};
   }
-  const auto root = nlohmann::json::parse(text, nullptr, false);
+  const auto root = engine::SortedJson::parse_or_null(text);
   if (!root.is_object() || !root.contains(kJsonKey)) return {};
   const auto& member = root[kJsonKey];
   if (!member.is_object() || !member.contains("bytes") || !member["bytes"].is_string()) return {};

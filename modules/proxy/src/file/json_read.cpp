@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include <bodice/engine/json.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 
 #include "binding/binding_bytes.hpp"
@@ -15,9 +14,9 @@
 namespace bodice::inline v0_1::proxy {
 namespace {
 
+using engine::SortedJson;
 using geometry::Frame;
 using geometry::Vec3;
-using nlohmann::json;
 
 /// An Error that is thrown out of nested readers and caught in this file.
 struct BadProxy {
@@ -29,22 +28,23 @@ struct BadProxy {
                   "Write the file again with 'bodice fit', or correct this value."}};
 }
 
-const json& member(const json& object, const char* key, const std::string& where) {
-  const auto found = object.find(key);
-  if (found == object.end()) fail(where + key, "there");
+const SortedJson& member(const SortedJson& object, const char* key, const std::string& where) {
+  const SortedJson* found = object.find(key);
+  if (!found) fail(where + key, "there");
   return *found;
 }
 
-double number(const json& value, const std::string& where) {
+double number(const SortedJson& value, const std::string& where) {
   if (!value.is_number()) fail(where, "a number");
   return value.get<double>();
 }
 
-double number(const json& object, const char* key, const std::string& where) {
+double number(const SortedJson& object, const char* key, const std::string& where) {
   return number(member(object, key, where), where + key);
 }
 
-std::int64_t integer(const json& value, const std::string& where, std::int64_t least, std::int64_t most) {
+std::int64_t integer(const SortedJson& value, const std::string& where, std::int64_t least,
+                     std::int64_t most) {
   if (!value.is_number_integer()) fail(where, "a whole number");
   const bool too_large = value.is_number_unsigned() && value.get<std::uint64_t>() > std::uint64_t(most);
   if (too_large || value.get<std::int64_t>() < least || value.get<std::int64_t>() > most)
@@ -52,23 +52,23 @@ std::int64_t integer(const json& value, const std::string& where, std::int64_t l
   return value.get<std::int64_t>();
 }
 
-std::string text(const json& object, const char* key, const std::string& where) {
-  const json& value = member(object, key, where);
+std::string text(const SortedJson& object, const char* key, const std::string& where) {
+  const SortedJson& value = member(object, key, where);
   if (!value.is_string()) fail(where + key, "text");
   return value.get<std::string>();
 }
 
-const json& list(const json& value, const std::string& where) {
+const SortedJson& list(const SortedJson& value, const std::string& where) {
   if (!value.is_array()) fail(where, "a list");
   return value;
 }
 
-Vec3 vector(const json& value, const std::string& where) {
+Vec3 vector(const SortedJson& value, const std::string& where) {
   if (list(value, where).size() != 3) fail(where, "a list of three numbers");
   return {number(value[0], where), number(value[1], where), number(value[2], where)};
 }
 
-std::uint64_t hash_value(const json& object, const char* key) {
+std::uint64_t hash_value(const SortedJson& object, const char* key) {
   const auto bytes = from_hex(text(object, key, ""));
   if (!bytes || bytes->size() != 8) fail(key, "16 hexadecimal digits");
   std::uint64_t value = 0;
@@ -76,7 +76,7 @@ std::uint64_t hash_value(const json& object, const char* key) {
   return value;
 }
 
-Frame read_frame(const json& root) {
+Frame read_frame(const SortedJson& root) {
   Frame frame;
   frame.meters_per_unit = number(root, "metres_per_unit", "");
   const std::string up = text(root, "up", "");
@@ -88,7 +88,7 @@ Frame read_frame(const json& root) {
   fail("up", "x, y or z");
 }
 
-ProxyEllipsoid read_ellipsoid(const json& value, const Frame& frame, const std::string& where) {
+ProxyEllipsoid read_ellipsoid(const SortedJson& value, const Frame& frame, const std::string& where) {
   if (!value.is_object()) fail(where, "an object");
   ProxyEllipsoid e;
   const auto part = body::part_from_name(text(value, "part", where));
@@ -98,13 +98,13 @@ ProxyEllipsoid read_ellipsoid(const json& value, const Frame& frame, const std::
     e.bone = static_cast<std::int16_t>(integer(value["bone"], where + "bone", kNoBone, INT16_MAX));
   e.shape.center = frame.to_inside(vector(member(value, "center", where), where + "center"));
   e.shape.radii = frame.meters_per_unit * vector(member(value, "radii", where), where + "radii");
-  const json& axes = list(member(value, "axes", where), where + "axes");
+  const SortedJson& axes = list(member(value, "axes", where), where + "axes");
   if (axes.size() != 3) fail(where + "axes", "a list of three directions");
   for (int k = 0; k < 3; ++k) e.shape.axes.col(k) = frame.rotation() * vector(axes[k], where + "axes");
   return e;
 }
 
-ReliefTable read_table(const json& value, const Frame& frame, const std::string& where) {
+ReliefTable read_table(const SortedJson& value, const Frame& frame, const std::string& where) {
   if (!value.is_object()) fail(where, "an object");
   auto length = [&](const char* key) {
     const double meters = number(value, key, where) * frame.meters_per_unit;
@@ -143,17 +143,17 @@ std::string place_of(std::string_view source, std::size_t bytes_read) {
   return "line " + std::to_string(line) + ", column " + std::to_string(before.size() - line_begin);
 }
 
-json parse(std::string_view source) {
+SortedJson parse(std::string_view source) {
   try {
-    return json::parse(source);
-  } catch (const json::parse_error& error) {
+    return SortedJson::parse(source);
+  } catch (const engine::JsonError& error) {
+    if (error.kind == engine::JsonError::Kind::kNumberRange)
+      fail("a number in it", "within the range of numbers");
     fail("the text up to " + place_of(source, error.byte), "JSON");
-  } catch (const json::exception&) {
-    fail("a number in it", "within the range of numbers");
   }
 }
 
-void check_format(const json& root) {
+void check_format(const SortedJson& root) {
   if (!root.is_object()) fail("the file", "a JSON object");
   if (text(root, "format", "") != kJsonFormat) fail("format", "bodice-proxy");
   const std::int64_t version =
@@ -165,7 +165,7 @@ void check_format(const json& root) {
                       std::to_string(kBoundJsonVersion) + "."}};
 }
 
-std::shared_ptr<const Binding> read_binding(const json& value) {
+std::shared_ptr<const Binding> read_binding(const SortedJson& value) {
   if (!value.is_object()) fail("binding", "an object");
   const auto bytes = from_hex(text(value, "bytes", "binding."));
   if (!bytes) fail("binding.bytes", "hexadecimal");
@@ -175,7 +175,7 @@ std::shared_ptr<const Binding> read_binding(const json& value) {
   return binding;
 }
 
-BodyProxy::Data read_data(const json& root) {
+BodyProxy::Data read_data(const SortedJson& root) {
   BodyProxy::Data data;
   data.frame = read_frame(root);
   const auto tier = tier_from_name(text(root, "tier", ""));
@@ -184,11 +184,11 @@ BodyProxy::Data read_data(const json& root) {
   data.stature_m = number(root, "stature", "") * data.frame.meters_per_unit;
   data.margin_m = number(root, "margin", "") * data.frame.meters_per_unit;
   data.source_hash = hash_value(root, "source_hash");
-  const json& ellipsoids = list(member(root, "ellipsoids", ""), "ellipsoids");
+  const SortedJson& ellipsoids = list(member(root, "ellipsoids", ""), "ellipsoids");
   for (std::size_t i = 0; i < ellipsoids.size(); ++i)
     data.ellipsoids.push_back(
         read_ellipsoid(ellipsoids[i], data.frame, "ellipsoids[" + std::to_string(i) + "]."));
-  const json& relief = list(member(root, "relief", ""), "relief");
+  const SortedJson& relief = list(member(root, "relief", ""), "relief");
   for (std::size_t i = 0; i < relief.size(); ++i)
     data.relief.push_back(read_table(relief[i], data.frame, "relief[" + std::to_string(i) + "]."));
   data.texels = read_texels(text(root, "texels", ""));
@@ -200,7 +200,7 @@ BodyProxy::Data read_data(const json& root) {
 
 engine::Result<BodyProxy> from_json(std::string_view source) {
   try {
-    const json root = parse(source);
+    const SortedJson root = parse(source);
     check_format(root);
     auto proxy = BodyProxy::make(read_data(root));
     if (proxy && root.contains("hash") && hash_value(root, "hash") != proxy->hash())

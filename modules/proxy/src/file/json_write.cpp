@@ -1,8 +1,7 @@
 // The JSON form: lengths in the unit and directions in the axes of the body's file, one line an ellipsoid.
 #include <string>
 
-#include <nlohmann/json.hpp>
-
+#include <bodice/engine/json.hpp>
 #include <bodice/engine/text.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 
@@ -12,7 +11,7 @@
 namespace bodice::inline v0_1::proxy {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using engine::Json;
 using geometry::Frame;
 using geometry::Vec3;
 
@@ -66,7 +65,7 @@ std::string binding_line(const Binding& binding) {
   Json object;
   object["joints"] = binding.joint_names;
   object["bytes"] = to_hex(bytes.written());
-  return object.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return object.dump({.replaces_invalid = true});
 }
 
 }  // namespace

@@ -1,14 +1,13 @@
+#include <bodice/engine/json.hpp>
 #include <bodice/tryon/measurements.hpp>
 
 #include <cmath>
 #include <numbers>
 
-#include <nlohmann/json.hpp>
-
 namespace bodice::inline v0_1::tryon {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using engine::Json;
 
 struct LengthUnit {
   const char* name;
@@ -39,7 +38,7 @@ Json as_json(const body::Measurements& measurements, const LengthUnit& unit) {
 }  // namespace
 
 std::string measurements_json(const body::Measurements& measurements, TailorUnit unit) {
-  return as_json(measurements, length_unit(unit)).dump(2) + "\n";
+  return as_json(measurements, length_unit(unit)).dump({.indent = 2}) + "\n";
 }
 
 std::string measurements_yaml(const body::Measurements& measurements, TailorUnit unit) {

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include <nlohmann/json.hpp>
-
+#include <bodice/engine/json.hpp>
 #include <bodice/engine/parallel.hpp>
 
 namespace bodice::inline v0_1::tryon {
@@ -56,8 +55,8 @@ std::string segmentation_json(const engine::Context& context, const SegmentedSki
       region[v] = at.signed_distance < -kInside_m ? kInternal : region_of(part_near(skin, at));
     }
   });
-  nlohmann::ordered_json lists;
-  for (const char* name : kRegions) lists[name] = nlohmann::ordered_json::array();
+  engine::Json lists;
+  for (const char* name : kRegions) lists[name] = engine::Json::array();
   for (std::size_t v = 0; v < region.size(); ++v) lists[kRegions[region[v]]].push_back(v);
   return lists.dump() + "\n";
 }

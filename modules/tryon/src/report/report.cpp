@@ -1,13 +1,12 @@
 #include <bodice/tryon/report.hpp>
 
-#include <nlohmann/json.hpp>
-
+#include <bodice/engine/json.hpp>
 #include <bodice/engine/text.hpp>
 
 namespace bodice::inline v0_1::tryon {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using engine::Json;
 
 double mm(double meters) {
   return meters * 1e3;
@@ -252,7 +251,7 @@ std::string report_json(const PreparedBody& body, const DrapeReport* drape, cons
     report["drape"]["kept"] = kept_json(drape->kept);
   }
   // Names of files and meshes need not be UTF-8; invalid bytes are replaced.
-  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return report.dump({.indent = 2, .replaces_invalid = true}) + "\n";
 }
 
 std::string labels_text(const SegmentedSkin& skin) {

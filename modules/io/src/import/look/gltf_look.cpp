@@ -10,7 +10,7 @@
 
 namespace bodice::inline v0_1::io {
 
-using nlohmann::json;
+using engine::SortedJson;
 
 GltfLook::GltfLook(const GltfDocument& document, const std::filesystem::path& folder, FileLook& out)
     : document_(document), folder_(folder), out_(out) {
@@ -24,7 +24,7 @@ GltfLook::GltfLook(const GltfDocument& document, const std::filesystem::path& fo
 std::uint32_t GltfLook::material(std::size_t index) {
   if (index >= materials_.size() || !document_.element("materials", index).is_object()) return kNoMaterial;
   if (materials_[index] != kUnread) return static_cast<std::uint32_t>(materials_[index]);
-  json copy = document_.element("materials", index);
+  SortedJson copy = document_.element("materials", index);
   renumber_textures(copy, [&](std::size_t texture_index) { return texture(texture_index); });
   // A packet of metadata stands elsewhere in the document.
   if (copy.contains("extensions") && copy["extensions"].is_object())
@@ -35,10 +35,10 @@ std::uint32_t GltfLook::material(std::size_t index) {
   return static_cast<std::uint32_t>(materials_[index]);
 }
 
-void GltfLook::note_required(const json& object) {
+void GltfLook::note_required(const SortedJson& object) {
   std::vector<std::string> names;
   collect_extensions(object, names);
-  for (const json& required : array_at(document_.root(), "extensionsRequired"))
+  for (const SortedJson& required : array_at(document_.root(), "extensionsRequired"))
     if (required.is_string() && std::ranges::find(names, required.get<std::string>()) != names.end())
       out_.materials.required.push_back(required.get<std::string>());
 }
@@ -48,7 +48,7 @@ std::optional<std::size_t> GltfLook::texture(std::size_t index) {
   std::size_t& known = textures_[index];
   if (known == kUnread) {
     known = kNone;
-    json copy = document_.element("textures", index);
+    SortedJson copy = document_.element("textures", index);
     if (renumber_images(copy, [&](std::size_t at, bool core) { return image(at, core); })) {
       if (const auto at = index_at(copy, "sampler"); at && *at < samplers_.size())
         copy["sampler"] = sampler(*at);
@@ -65,8 +65,8 @@ std::optional<std::size_t> GltfLook::texture(std::size_t index) {
 std::size_t GltfLook::sampler(std::size_t index) {
   if (samplers_[index] == kUnread) {
     samplers_[index] = out_.materials.samplers.size();
-    const json& original = document_.element("samplers", index);
-    out_.materials.samplers.push_back(original.is_object() ? original : json::object());
+    const SortedJson& original = document_.element("samplers", index);
+    out_.materials.samplers.push_back(original.is_object() ? original : SortedJson::object());
   }
   return samplers_[index];
 }
@@ -76,7 +76,7 @@ std::optional<std::size_t> GltfLook::image(std::size_t index, bool core) {
   std::size_t& known = images_[index];
   if (known == kUnread) {
     known = kNone;
-    const json& object = document_.element("images", index);
+    const SortedJson& object = document_.element("images", index);
     const std::string uri = text_at(object, "uri");
     LookImage image{text_at(object, "name"), {}, {}};
     if (const auto view = index_at(object, "bufferView"))
@@ -100,10 +100,10 @@ std::optional<std::size_t> GltfLook::image(std::size_t index, bool core) {
   return known;
 }
 
-void GltfLook::read_uv(const json& primitive, std::size_t vertices,
+void GltfLook::read_uv(const SortedJson& primitive, std::size_t vertices,
                        std::span<const geometry::Triangle> triangles, MeshLook& look) const {
-  const auto attributes = primitive.find("attributes");
-  if (attributes == primitive.end()) return;
+  const SortedJson* attributes = primitive.find("attributes");
+  if (!attributes) return;
   std::vector<GltfNumbers> sets;
   for (;;) {
     const auto at = index_at(*attributes, ("TEXCOORD_" + std::to_string(sets.size())).c_str());

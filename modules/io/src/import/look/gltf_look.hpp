@@ -18,7 +18,7 @@ class GltfLook {
   /// The number in `out` of a material of the document; kNoMaterial where it does not exist.
   std::uint32_t material(std::size_t index);
   /// Reads all texture coordinates of a primitive with these triangles.
-  void read_uv(const nlohmann::json& primitive, std::size_t vertices,
+  void read_uv(const engine::SortedJson& primitive, std::size_t vertices,
                std::span<const geometry::Triangle> triangles, MeshLook& look) const;
 
  private:
@@ -26,7 +26,7 @@ class GltfLook {
   std::optional<std::size_t> image(std::size_t index, bool core);
   std::size_t sampler(std::size_t index);
   /// Lists the extensions of an object that the document requires.
-  void note_required(const nlohmann::json& object);
+  void note_required(const engine::SortedJson& object);
 
   static constexpr std::size_t kUnread = ~std::size_t{0}, kNone = kUnread - 1;
 

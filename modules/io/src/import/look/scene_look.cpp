@@ -15,7 +15,7 @@ namespace bodice::inline v0_1::io {
 
 namespace {
 
-using nlohmann::json;
+using engine::SortedJson;
 
 constexpr float kClothRoughness = 0.85f;
 constexpr int kClampToEdge = 33071, kMirroredRepeat = 33648,
@@ -35,7 +35,7 @@ float roughness_of(const aiMaterial& material) {
   return kClothRoughness;
 }
 
-json color_of(const aiColor3D& color) {
+SortedJson color_of(const aiColor3D& color) {
   return {in_unit(color.r, 1.0f), in_unit(color.g, 1.0f), in_unit(color.b, 1.0f)};
 }
 
@@ -59,7 +59,7 @@ std::uint32_t SceneLook::material(std::size_t index) {
   if (index >= materials_.size()) return kNoMaterial;
   if (materials_[index] != kNoMaterial) return materials_[index];
   const aiMaterial& from = *scene_.mMaterials[index];
-  json base = texture(from, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
+  SortedJson base = texture(from, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
   aiColor3D diffuse(1.0f, 1.0f, 1.0f);
   // As in most programs, a texture replaces the color.
   if (base.is_null() && from.Get(AI_MATKEY_BASE_COLOR, diffuse) != aiReturn_SUCCESS)
@@ -67,19 +67,19 @@ std::uint32_t SceneLook::material(std::size_t index) {
   float opacity = 1.0f, metallic = 0.0f;
   from.Get(AI_MATKEY_OPACITY, opacity);
   from.Get(AI_MATKEY_METALLIC_FACTOR, metallic);
-  json factor = color_of(diffuse);
+  SortedJson factor = color_of(diffuse);
   factor.push_back(in_unit(opacity, 1.0f));
-  json out = {{"name", from.GetName().C_Str()}, {"doubleSided", true}};
+  SortedJson out = {{"name", from.GetName().C_Str()}, {"doubleSided", true}};
   out["pbrMetallicRoughness"] = {{"baseColorFactor", factor},
                                  {"metallicFactor", in_unit(metallic, 0.0f)},
                                  {"roughnessFactor", roughness_of(from)}};
   if (!base.is_null()) out["pbrMetallicRoughness"]["baseColorTexture"] = std::move(base);
   if (opacity < 1.0f) out["alphaMode"] = "BLEND";
-  if (json normal = texture(from, {aiTextureType_NORMALS}); !normal.is_null())
+  if (SortedJson normal = texture(from, {aiTextureType_NORMALS}); !normal.is_null())
     out["normalTexture"] = std::move(normal);
   aiColor3D emissive(0.0f, 0.0f, 0.0f);
   from.Get(AI_MATKEY_COLOR_EMISSIVE, emissive);
-  if (json glow = texture(from, {aiTextureType_EMISSIVE}); !glow.is_null()) {
+  if (SortedJson glow = texture(from, {aiTextureType_EMISSIVE}); !glow.is_null()) {
     out["emissiveTexture"] = std::move(glow);
     out["emissiveFactor"] = {1, 1, 1};
   } else if (!emissive.IsBlack()) {
@@ -105,20 +105,20 @@ void SceneLook::read_uv(const aiMesh& mesh, std::span<const geometry::Triangle> 
       }
 }
 
-json SceneLook::texture(const aiMaterial& material, std::initializer_list<aiTextureType> kinds) {
+SortedJson SceneLook::texture(const aiMaterial& material, std::initializer_list<aiTextureType> kinds) {
   for (const aiTextureType kind : kinds) {
     aiString name;
     unsigned set = 0;
     if (material.GetTexture(kind, 0, &name, nullptr, &set) != aiReturn_SUCCESS || name.length == 0) continue;
     const auto at = image(name.C_Str());
     if (!at) continue;
-    json texture = {{"source", *at}};
+    SortedJson texture = {{"source", *at}};
     const int u = wrap_of(material, kind, false), v = wrap_of(material, kind, true);
     if (u != kRepeat || v != kRepeat) {
       texture["sampler"] = out_.materials.samplers.size();
       out_.materials.samplers.push_back({{"wrapS", u}, {"wrapT", v}});
     }
-    json reference = {{"index", out_.materials.textures.size()}};
+    SortedJson reference = {{"index", out_.materials.textures.size()}};
     if (set > 0 && set < AI_MAX_NUMBER_OF_TEXTURECOORDS) reference["texCoord"] = set;
     out_.materials.textures.push_back(std::move(texture));
     return reference;

@@ -26,7 +26,7 @@ class SceneLook {
 
  private:
   /// A reference to the first texture of one of these kinds, or null.
-  nlohmann::json texture(const aiMaterial& material, std::initializer_list<aiTextureType> kinds);
+  engine::SortedJson texture(const aiMaterial& material, std::initializer_list<aiTextureType> kinds);
   std::optional<std::size_t> image(const std::string& name);
   std::string bytes_of(const std::string& name) const;
   void warn_of_lost_textures(const aiMaterial& material);

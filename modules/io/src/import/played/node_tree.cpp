@@ -4,18 +4,18 @@ namespace bodice::inline v0_1::io {
 
 namespace {
 
-using nlohmann::json;
+using engine::SortedJson;
 
 /// The numbers under a key; `size` of them, or none.
-std::vector<double> numbers_at(const json& node, const char* key, std::size_t size) {
+std::vector<double> numbers_at(const SortedJson& node, const char* key, std::size_t size) {
   std::vector<double> values;
-  for (const json& value : array_at(node, key))
+  for (const SortedJson& value : array_at(node, key))
     if (value.is_number()) values.push_back(value.get<double>());
   if (values.size() != size) values.clear();
   return values;
 }
 
-rig::LocalTransform local_of(const json& node) {
+rig::LocalTransform local_of(const SortedJson& node) {
   rig::LocalTransform local;
   if (const auto t = numbers_at(node, "translation", 3); !t.empty())
     local.translation = geometry::Vec3(t[0], t[1], t[2]);
@@ -32,11 +32,11 @@ Eigen::Affine3d affine_of(const rig::LocalTransform& local) {
 }  // namespace
 
 NodeTree::NodeTree(const GltfDocument& document) : document_(document) {
-  const json& nodes = array_at(document.root(), "nodes");
+  const SortedJson& nodes = array_at(document.root(), "nodes");
   parent_.assign(nodes.size(), kNoParent);
-  for (const json& node : nodes) local_.push_back(local_of(node));
+  for (const SortedJson& node : nodes) local_.push_back(local_of(node));
   for (std::size_t n = 0; n < nodes.size(); ++n)
-    for (const json& child : array_at(nodes[n], "children"))
+    for (const SortedJson& child : array_at(nodes[n], "children"))
       if (child.is_number_unsigned() && child.get<std::size_t>() < parent_.size())
         parent_[child.get<std::size_t>()] = static_cast<std::ptrdiff_t>(n);
   for (std::ptrdiff_t& parent : parent_) {  // a walk upward that is longer than all nodes is a ring
@@ -58,7 +58,7 @@ bool NodeTree::is_top(std::size_t node) const {
 std::optional<std::size_t> NodeTree::find_top(std::string_view name) const {
   std::optional<std::size_t> found;
   for (std::size_t n = 0; n < size(); ++n) {
-    const json& node = document_.element("nodes", n);
+    const SortedJson& node = document_.element("nodes", n);
     if (!is_top(n) || text_at(node, "name") != name) continue;
     if (index_at(node, "mesh")) return n;
     if (!found) found = n;

@@ -10,11 +10,12 @@ namespace bodice::inline v0_1::io {
 
 namespace {
 
+using engine::SortedJson;
 using geometry::Vec3;
-using nlohmann::json;
 
 /// The skin's weights, all sets of a vertex one after the other.
-rig::SkinWeights weights_of(const GltfDocument& document, const json& attributes, std::size_t vertices) {
+rig::SkinWeights weights_of(const GltfDocument& document, const SortedJson& attributes,
+                            std::size_t vertices) {
   std::vector<std::vector<std::pair<std::uint16_t, float>>> of_vertex(vertices);
   const auto add = [&](std::uint32_t vertex, double joint, double weight) {
     if (vertex < vertices && weight > 0.0)
@@ -33,13 +34,13 @@ rig::SkinWeights weights_of(const GltfDocument& document, const json& attributes
 
 rig::Clip clip_of(const GltfDocument& document, const std::vector<std::ptrdiff_t>& joint_of_node) {
   rig::Clip clip;
-  const json& animation = document.element("animations", 0);
+  const SortedJson& animation = document.element("animations", 0);
   std::vector<rig::Track> tracks(joint_of_node.size());
   std::vector<bool> moved(joint_of_node.size(), false);
-  for (const json& channel : array_at(animation, "channels")) {
-    const json& target = channel.contains("target") ? channel["target"] : channel;
+  for (const SortedJson& channel : array_at(animation, "channels")) {
+    const SortedJson& target = channel.contains("target") ? channel["target"] : channel;
     const auto node = index_at(target, "node"), at = index_at(channel, "sampler");
-    const json& samplers = array_at(animation, "samplers");
+    const SortedJson& samplers = array_at(animation, "samplers");
     if (!node || !at || *at >= samplers.size() || *node >= joint_of_node.size() || joint_of_node[*node] < 0)
       continue;
     const auto joint = static_cast<std::size_t>(joint_of_node[*node]);
@@ -62,7 +63,7 @@ rig::Clip clip_of(const GltfDocument& document, const std::vector<std::ptrdiff_t
 }
 
 /// The joint of each node, -1 where it is none; empty where a joint is no node.
-std::vector<std::ptrdiff_t> joints_by_node(const json& joints, std::size_t nodes) {
+std::vector<std::ptrdiff_t> joints_by_node(const SortedJson& joints, std::size_t nodes) {
   std::vector<std::ptrdiff_t> joint_of_node(nodes, -1);
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (!joints[j].is_number_unsigned() || joints[j].get<std::size_t>() >= nodes) return {};
@@ -72,7 +73,7 @@ std::vector<std::ptrdiff_t> joints_by_node(const json& joints, std::size_t nodes
 }
 
 /// The joints in the order of the skin. Precondition: joints_by_node() of them, and a matrix each.
-rig::Skeleton skeleton_of(const GltfDocument& document, const NodeTree& tree, const json& joints,
+rig::Skeleton skeleton_of(const GltfDocument& document, const NodeTree& tree, const SortedJson& joints,
                           const std::vector<std::ptrdiff_t>& joint_of_node, const GltfNumbers& inverse) {
   rig::Skeleton skeleton;
   for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -91,17 +92,17 @@ rig::Skeleton skeleton_of(const GltfDocument& document, const NodeTree& tree, co
 
 }  // namespace
 
-std::optional<rig::Rig> played_rig(const GltfDocument& document, const NodeTree& tree, const json& body_node,
-                                   std::size_t vertices) {
+std::optional<rig::Rig> played_rig(const GltfDocument& document, const NodeTree& tree,
+                                   const SortedJson& body_node, std::size_t vertices) {
   const auto skin_at = index_at(body_node, "skin"), mesh_at = index_at(body_node, "mesh");
   if (!skin_at || !mesh_at) return std::nullopt;
-  const json& skin = document.element("skins", *skin_at);
-  const json& joints = array_at(skin, "joints");
+  const SortedJson& skin = document.element("skins", *skin_at);
+  const SortedJson& joints = array_at(skin, "joints");
   const auto inverse_at = index_at(skin, "inverseBindMatrices");
   const auto inverse = inverse_at ? document.numbers(*inverse_at) : std::nullopt;
   if (!inverse || inverse->components != 16 || inverse->count < joints.size()) return std::nullopt;
   const std::vector<std::ptrdiff_t> joint_of_node = joints_by_node(joints, tree.size());
-  const json& primitives = array_at(document.element("meshes", *mesh_at), "primitives");
+  const SortedJson& primitives = array_at(document.element("meshes", *mesh_at), "primitives");
   if (joint_of_node.empty() || primitives.empty() || !primitives[0].contains("attributes"))
     return std::nullopt;
   rig::Rig rig;

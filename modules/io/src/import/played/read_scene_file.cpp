@@ -15,8 +15,8 @@ namespace bodice::inline v0_1::io {
 
 namespace {
 
+using engine::SortedJson;
 using geometry::Vec3;
-using nlohmann::json;
 
 /// The part of a color, as write_glb() colors the skin.
 body::Part part_colored(const Vec3& linear) {
@@ -39,7 +39,7 @@ class SceneFileReader {
   bool read(SceneFile& out) { return read_garments(out) && read_body(out) && read_ellipsoids(out); }
 
  private:
-  std::vector<Vec3> vectors(const json& object, const char* key) const {
+  std::vector<Vec3> vectors(const SortedJson& object, const char* key) const {
     std::vector<Vec3> out;
     const auto at = index_at(object, key);
     const auto numbers = at ? document_.numbers(*at) : std::nullopt;
@@ -51,18 +51,18 @@ class SceneFileReader {
     return out;
   }
 
-  const json& primitive_of(std::size_t node) const {
-    static const json kNone;
+  const SortedJson& primitive_of(std::size_t node) const {
+    static const SortedJson kNone;
     const auto mesh = index_at(document_.element("nodes", node), "mesh");
-    const json& primitives =
+    const SortedJson& primitives =
         mesh ? array_at(document_.element("meshes", *mesh), "primitives") : array_at(kNone, "");
     return primitives.empty() ? kNone : primitives[0];
   }
 
   /// The node of a garment's mesh: that of its name, or the only one below it.
   std::size_t mesh_node(std::size_t node) const {
-    const json& object = document_.element("nodes", node);
-    const json& children = array_at(object, "children");
+    const SortedJson& object = document_.element("nodes", node);
+    const SortedJson& children = array_at(object, "children");
     if (index_at(object, "mesh") || children.size() != 1 || !children[0].is_number_unsigned()) return node;
     const auto child = children[0].get<std::size_t>();
     return child < tree_.size() ? child : node;
@@ -72,7 +72,7 @@ class SceneFileReader {
   bool read_other_triangles(std::size_t node, geometry::TriMesh& mesh) const {
     const auto at = index_at(document_.element("nodes", node), "mesh");
     if (!at) return true;
-    const json& primitives = array_at(document_.element("meshes", *at), "primitives");
+    const SortedJson& primitives = array_at(document_.element("meshes", *at), "primitives");
     for (std::size_t p = 1; p < primitives.size(); ++p)
       if (!read_triangles(primitives[p], mesh)) return false;
     return true;
@@ -80,7 +80,7 @@ class SceneFileReader {
 
   /// Merges the vertices of a garment that stand for one vertex of the cloth. Cloths without the attribute
   /// have their own vertices.
-  bool join_copies(const json& primitive, GarmentTrack& track) const {
+  bool join_copies(const SortedJson& primitive, GarmentTrack& track) const {
     const auto at = index_at(primitive["attributes"], kClothVertex);
     if (!at) return true;
     const auto numbers = document_.numbers(*at);
@@ -105,7 +105,7 @@ class SceneFileReader {
   }
 
   /// The mesh of a primitive in its own coordinates.
-  bool read_mesh(const json& primitive, geometry::TriMesh& mesh) const {
+  bool read_mesh(const SortedJson& primitive, geometry::TriMesh& mesh) const {
     if (!primitive.is_object() || !primitive.contains("attributes")) return false;
     mesh.positions = vectors(primitive["attributes"], "POSITION");
     return !mesh.positions.empty() && read_triangles(primitive, mesh) &&
@@ -113,7 +113,7 @@ class SceneFileReader {
   }
 
   /// Appends the triangles of a primitive.
-  bool read_triangles(const json& primitive, geometry::TriMesh& mesh) const {
+  bool read_triangles(const SortedJson& primitive, geometry::TriMesh& mesh) const {
     const auto at = index_at(primitive, "indices");
     const auto indices = at ? document_.numbers(*at) : std::nullopt;
     if (!indices || indices->components != 1 || indices->count % 3 != 0) return false;
@@ -131,20 +131,20 @@ class SceneFileReader {
 
   /// The times of the animation of a node's path, or none.
   std::vector<double> times_of(std::size_t node, const char* path) const {
-    const json* sampler = sampler_of(node, path);
+    const SortedJson* sampler = sampler_of(node, path);
     const auto input = sampler ? index_at(*sampler, "input") : std::nullopt;
     const auto numbers = input ? document_.numbers(*input) : std::nullopt;
     return numbers ? numbers->values : std::vector<double>();
   }
 
-  const json* sampler_of(std::size_t node, const char* path) const {
-    const json& animation = document_.element("animations", 0);
-    for (const json& channel : array_at(animation, "channels")) {
+  const SortedJson* sampler_of(std::size_t node, const char* path) const {
+    const SortedJson& animation = document_.element("animations", 0);
+    for (const SortedJson& channel : array_at(animation, "channels")) {
       if (!channel.contains("target") || index_at(channel["target"], "node") != node ||
           text_at(channel["target"], "path") != path)
         continue;
       const auto at = index_at(channel, "sampler");
-      const json& samplers = array_at(animation, "samplers");
+      const SortedJson& samplers = array_at(animation, "samplers");
       return at && *at < samplers.size() ? &samplers[*at] : nullptr;
     }
     return nullptr;
@@ -158,10 +158,10 @@ class SceneFileReader {
       const std::size_t node = mesh_node(*named);
       GarmentTrack track;
       track.name = name;
-      const json& primitive = primitive_of(node);
+      const SortedJson& primitive = primitive_of(node);
       if (!read_mesh(primitive, track.mesh) || !read_other_triangles(node, track.mesh)) return false;
       const Eigen::Affine3d to_world = tree_.world(node);
-      for (const json& target : array_at(primitive, "targets")) {
+      for (const SortedJson& target : array_at(primitive, "targets")) {
         const std::vector<Vec3> moved = vectors(target, "POSITION");
         if (moved.size() != track.mesh.positions.size()) return false;
         std::vector<Vec3>& frame = track.frames.emplace_back();
@@ -191,12 +191,12 @@ class SceneFileReader {
   bool read_body(SceneFile& out) {
     const auto node = tree_.find_top("body");
     if (!node) return true;
-    const json& primitive = primitive_of(*node);
+    const SortedJson& primitive = primitive_of(*node);
     if (!read_mesh(primitive, out.body)) return false;
     for (const Vec3& color : vectors(primitive["attributes"], "COLOR_0"))
       out.part.push_back(part_colored(color));
     if (!out.part.empty() && out.part.size() != out.body.positions.size()) return false;
-    const json& body_node = document_.element("nodes", *node);
+    const SortedJson& body_node = document_.element("nodes", *node);
     if (body_node.contains("skin")) {
       if (out.garments.empty()) return true;
       const auto rig = played_rig(document_, tree_, body_node, out.body.positions.size());
@@ -223,16 +223,16 @@ class SceneFileReader {
   bool read_ellipsoids(SceneFile& out) {
     const auto above = tree_.find_top("ellipsoids");
     if (!above) return true;
-    const json& top = document_.element("nodes", *above);
+    const SortedJson& top = document_.element("nodes", *above);
     if (top.contains("extras")) {
       out.proxy_hash = text_at(top["extras"], "hash");
       out.tier = text_at(top["extras"], "tier");
     }
     std::vector<std::size_t> nodes;
-    for (const json& child : array_at(top, "children")) {
+    for (const SortedJson& child : array_at(top, "children")) {
       if (!child.is_number_unsigned() || child.get<std::size_t>() >= tree_.size()) return false;
       nodes.push_back(child.get<std::size_t>());
-      const json& node = document_.element("nodes", nodes.back());
+      const SortedJson& node = document_.element("nodes", nodes.back());
       const auto part = body::part_from_name(node.contains("extras") ? text_at(node["extras"], "part") : "");
       proxy::ProxyEllipsoid ellipsoid;
       ellipsoid.shape = ellipsoid_of(tree_.world(nodes.back()));
@@ -250,7 +250,7 @@ class SceneFileReader {
     for (const std::size_t node : nodes) {
       std::vector<std::vector<double>> keys;
       for (const char* path : {"translation", "rotation", "scale"}) {
-        const json* sampler = sampler_of(node, path);
+        const SortedJson* sampler = sampler_of(node, path);
         const auto output = sampler ? index_at(*sampler, "output") : std::nullopt;
         const auto numbers = output ? document_.numbers(*output) : std::nullopt;
         if (!numbers || numbers->count != out.ellipsoid_frames.size() ||

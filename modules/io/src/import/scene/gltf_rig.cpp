@@ -8,15 +8,16 @@
 
 namespace bodice::inline v0_1::io {
 
-using nlohmann::json;
+using engine::SortedJson;
 
 std::optional<GltfRig> GltfRig::match(GltfDocument document, const SceneNodes& nodes) {
   GltfRig rig;
   rig.document_ = std::move(document);
   rig.document_node_.assign(nodes.node.size(), kNone);
   rig.scene_node_.assign(array_at(rig.document_.root(), "nodes").size(), kNoNode);
-  const json& scene = rig.document_.element("scenes", index_at(rig.document_.root(), "scene").value_or(0));
-  const json& roots = array_at(scene, "nodes");
+  const SortedJson& scene =
+      rig.document_.element("scenes", index_at(rig.document_.root(), "scene").value_or(0));
+  const SortedJson& roots = array_at(scene, "nodes");
   const aiNode& root = *nodes.node.front();
   if (roots.size() != 1 && roots.size() != root.mNumChildren) return std::nullopt;
   for (std::size_t i = 0; i < roots.size(); ++i) {
@@ -33,7 +34,7 @@ bool GltfRig::walk(std::size_t document_node, const aiNode& node, const SceneNod
   if (document_node >= scene_node_.size()) return false;
   document_node_[index->second] = document_node;
   scene_node_[document_node] = index->second;
-  const json& children = array_at(document_.element("nodes", document_node), "children");
+  const SortedJson& children = array_at(document_.element("nodes", document_node), "children");
   if (children.size() != node.mNumChildren) return false;
   for (std::size_t i = 0; i < children.size(); ++i)
     if (!children[i].is_number_unsigned() || !walk(children[i].get<std::size_t>(), *node.mChildren[i], nodes))
@@ -41,8 +42,8 @@ bool GltfRig::walk(std::size_t document_node, const aiNode& node, const SceneNod
   return true;
 }
 
-std::vector<FileBone> GltfRig::bones_of_skin(const json& skin) const {
-  const json& joints = array_at(skin, "joints");
+std::vector<FileBone> GltfRig::bones_of_skin(const SortedJson& skin) const {
+  const SortedJson& joints = array_at(skin, "joints");
   const auto inverse_at = index_at(skin, "inverseBindMatrices");
   const auto inverse = inverse_at ? document_.numbers(*inverse_at) : std::nullopt;
   std::vector<FileBone> bones(joints.size());
@@ -58,27 +59,27 @@ std::vector<FileBone> GltfRig::bones_of_skin(const json& skin) const {
   return bones;
 }
 
-const json& GltfRig::node(std::uint32_t scene_node) const {
+const SortedJson& GltfRig::node(std::uint32_t scene_node) const {
   return document_.element("nodes", document_node_[scene_node]);  // kNone is beyond all nodes
 }
 
-const json& GltfRig::primitive(std::uint32_t scene_node, std::size_t primitive) const {
-  static const json kNothing;
+const SortedJson& GltfRig::primitive(std::uint32_t scene_node, std::size_t primitive) const {
+  static const SortedJson kNothing;
   const auto mesh = index_at(node(scene_node), "mesh");
-  const json& primitives = array_at(mesh ? document_.element("meshes", *mesh) : kNothing, "primitives");
+  const SortedJson& primitives = array_at(mesh ? document_.element("meshes", *mesh) : kNothing, "primitives");
   return primitive < primitives.size() ? primitives[primitive] : kNothing;
 }
 
 std::vector<FileBone> GltfRig::bones(std::uint32_t scene_node, std::size_t primitive) const {
   if (document_node_[scene_node] == kNone) return {};
-  const json& node = document_.element("nodes", document_node_[scene_node]);
+  const SortedJson& node = document_.element("nodes", document_node_[scene_node]);
   const auto skin = index_at(node, "skin"), mesh = index_at(node, "mesh");
   if (!skin || !mesh) return {};
-  const json& primitives = array_at(document_.element("meshes", *mesh), "primitives");
+  const SortedJson& primitives = array_at(document_.element("meshes", *mesh), "primitives");
   if (primitive >= primitives.size() || !primitives[primitive].is_object()) return {};
-  const auto attributes = primitives[primitive].find("attributes");
+  const SortedJson* attributes = primitives[primitive].find("attributes");
   std::vector<FileBone> bones = bones_of_skin(document_.element("skins", *skin));
-  if (attributes == primitives[primitive].end() || bones.empty()) return bones;
+  if (!attributes || bones.empty()) return bones;
   const auto add = [&](std::uint32_t vertex, double joint, double weight) {
     if (weight != 0.0 && joint >= 0.0 && joint < static_cast<double>(bones.size()))
       bones[static_cast<std::size_t>(joint)].weights.emplace_back(vertex, static_cast<float>(weight));
@@ -88,14 +89,14 @@ std::vector<FileBone> GltfRig::bones(std::uint32_t scene_node, std::size_t primi
   return bones;
 }
 
-void GltfRig::add_track(const json& channel, const json& animation, FileClip& clip) const {
+void GltfRig::add_track(const SortedJson& channel, const SortedJson& animation, FileClip& clip) const {
   if (!channel.is_object() || !channel.contains("target")) return;
   const auto node = index_at(channel["target"], "node"), at = index_at(channel, "sampler");
   const std::string path = text_at(channel["target"], "path");
   if (!node || *node >= scene_node_.size() || scene_node_[*node] == kNoNode) return;
   if (path != "translation" && path != "rotation" && path != "scale") return;  // weights of morph targets
-  const json& samplers = array_at(animation, "samplers");
-  const json sampler = at && *at < samplers.size() ? samplers[*at] : json();
+  const SortedJson& samplers = array_at(animation, "samplers");
+  const SortedJson sampler = at && *at < samplers.size() ? samplers[*at] : SortedJson();
   auto track = std::find_if(clip.tracks.begin(), clip.tracks.end(),
                             [&](const auto& other) { return other.first == scene_node_[*node]; });
   if (track == clip.tracks.end()) track = clip.tracks.insert(track, {scene_node_[*node], {}});
@@ -113,10 +114,10 @@ void GltfRig::add_track(const json& channel, const json& animation, FileClip& cl
 
 std::vector<FileClip> GltfRig::clips() const {
   std::vector<FileClip> clips;
-  for (const json& animation : array_at(document_.root(), "animations")) {
+  for (const SortedJson& animation : array_at(document_.root(), "animations")) {
     FileClip& clip = clips.emplace_back();
     clip.name = text_at(animation, "name");
-    for (const json& channel : array_at(animation, "channels")) add_track(channel, animation, clip);
+    for (const SortedJson& channel : array_at(animation, "channels")) add_track(channel, animation, clip);
   }
   return clips;
 }

@@ -22,14 +22,15 @@ class GltfRig {
 
   const GltfDocument& document() const { return document_; }
   /// The document's node of a node of the scene; null where there is none.
-  const nlohmann::json& node(std::uint32_t scene_node) const;
+  const engine::SortedJson& node(std::uint32_t scene_node) const;
   /// Primitive number `primitive` of the mesh at a node of the scene; null where there is none.
-  const nlohmann::json& primitive(std::uint32_t scene_node, std::size_t primitive) const;
+  const engine::SortedJson& primitive(std::uint32_t scene_node, std::size_t primitive) const;
 
  private:
   bool walk(std::size_t document_node, const aiNode& node, const SceneNodes& nodes);
-  std::vector<FileBone> bones_of_skin(const nlohmann::json& skin) const;
-  void add_track(const nlohmann::json& channel, const nlohmann::json& animation, FileClip& clip) const;
+  std::vector<FileBone> bones_of_skin(const engine::SortedJson& skin) const;
+  void add_track(const engine::SortedJson& channel, const engine::SortedJson& animation,
+                 FileClip& clip) const;
 
   static constexpr std::size_t kNone = ~std::size_t{0};
   static constexpr std::uint32_t kNoNode = ~std::uint32_t{0};

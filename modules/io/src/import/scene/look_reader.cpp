@@ -17,7 +17,7 @@ MeshLook LookReader::of(const aiMesh& mesh, const NodeMesh& from,
   MeshLook look;
   if (gltf_) {
     look.node = text_at(gltf_->node(from.node), "name");
-    const nlohmann::json& primitive = gltf_->primitive(from.node, from.primitive);
+    const engine::SortedJson& primitive = gltf_->primitive(from.node, from.primitive);
     gltf_look_->read_uv(primitive, mesh.mNumVertices, triangles, look);
     if (const auto material = index_at(primitive, "material"))
       look.material = gltf_look_->material(*material);

@@ -12,10 +12,10 @@ namespace bodice::inline v0_1::io {
 
 namespace {
 
-using nlohmann::json;
+using engine::SortedJson;
 
-const json kNothing;
-const json kEmptyArray = json::array();
+const SortedJson kNothing;
+const SortedJson kEmptyArray = SortedJson::array();
 
 /// An accessor without data is all zeros; more of them than this is hostile.
 constexpr std::size_t kMostZeros = std::size_t{1} << 26;
@@ -78,46 +78,46 @@ struct GltfDocument::Layout {
   std::size_t element_bytes() const { return components * bytes_of(component_type); }
 };
 
-std::optional<std::size_t> index_at(const json& object, const char* key) {
+std::optional<std::size_t> index_at(const SortedJson& object, const char* key) {
   if (!object.is_object()) return std::nullopt;
-  const auto found = object.find(key);
-  if (found == object.end() || !found->is_number_unsigned()) return std::nullopt;
+  const SortedJson* found = object.find(key);
+  if (!found || !found->is_number_unsigned()) return std::nullopt;
   return found->get<std::size_t>();
 }
 
-std::string text_at(const json& object, const char* key) {
+std::string text_at(const SortedJson& object, const char* key) {
   if (!object.is_object()) return "";
-  const auto found = object.find(key);
-  return found == object.end() || !found->is_string() ? "" : found->get<std::string>();
+  const SortedJson* found = object.find(key);
+  return !found || !found->is_string() ? "" : found->get<std::string>();
 }
 
-const json& array_at(const json& object, const char* key) {
+const SortedJson& array_at(const SortedJson& object, const char* key) {
   if (!object.is_object()) return kEmptyArray;
-  const auto found = object.find(key);
-  return found == object.end() || !found->is_array() ? kEmptyArray : *found;
+  const SortedJson* found = object.find(key);
+  return !found || !found->is_array() ? kEmptyArray : *found;
 }
 
 std::optional<GltfDocument> GltfDocument::open(const std::filesystem::path& file) {
   GltfDocument document;
   const GltfText text = split_glb(read_text(file));
-  document.json_ = json::parse(text.json, nullptr, false);
+  document.json_ = SortedJson::parse_or_null(text.json);
   if (!document.json_.is_object() || !document.json_.contains("asset") ||
       !text_at(document.json_["asset"], "version").starts_with("2"))
     return std::nullopt;
-  for (const json& buffer : array_at(document.json_, "buffers")) {
+  for (const SortedJson& buffer : array_at(document.json_, "buffers")) {
     const std::string uri = text_at(buffer, "uri");
     document.buffers_.push_back(uri.empty() ? std::string(text.binary) : load_uri(uri, file.parent_path()));
   }
   return document;
 }
 
-const json& GltfDocument::element(const char* array, std::size_t index) const {
-  const json& list = array_at(json_, array);
+const SortedJson& GltfDocument::element(const char* array, std::size_t index) const {
+  const SortedJson& list = array_at(json_, array);
   return index < list.size() ? list[index] : kNothing;
 }
 
 std::string_view GltfDocument::view_bytes(std::size_t view) const {
-  const json& object = element("bufferViews", view);
+  const SortedJson& object = element("bufferViews", view);
   const auto buffer = index_at(object, "buffer"), length = index_at(object, "byteLength");
   const std::size_t offset = index_at(object, "byteOffset").value_or(0);
   if (!buffer || !length || *buffer >= buffers_.size()) return {};
@@ -126,7 +126,7 @@ std::string_view GltfDocument::view_bytes(std::size_t view) const {
   return bytes.substr(offset, *length);
 }
 
-bool GltfDocument::read_dense(const json& accessor, const Layout& layout, GltfNumbers& out) const {
+bool GltfDocument::read_dense(const SortedJson& accessor, const Layout& layout, GltfNumbers& out) const {
   const auto view = index_at(accessor, "bufferView");
   if (!view) {
     if (layout.count > kMostZeros / layout.components) return false;
@@ -150,9 +150,9 @@ bool GltfDocument::read_dense(const json& accessor, const Layout& layout, GltfNu
 }
 
 /// Replaces the elements that the accessor lists one by one.
-bool GltfDocument::read_sparse(const json& accessor, const Layout& layout, GltfNumbers& out) const {
+bool GltfDocument::read_sparse(const SortedJson& accessor, const Layout& layout, GltfNumbers& out) const {
   if (!accessor.contains("sparse")) return true;
-  const json& sparse = accessor["sparse"];
+  const SortedJson& sparse = accessor["sparse"];
   if (!sparse.is_object() || !sparse.contains("indices") || !sparse.contains("values")) return false;
   const auto count = index_at(sparse, "count");
   const auto type = index_at(sparse["indices"], "componentType");
@@ -174,12 +174,12 @@ bool GltfDocument::read_sparse(const json& accessor, const Layout& layout, GltfN
 }
 
 std::optional<GltfNumbers> GltfDocument::numbers(std::size_t accessor) const {
-  const json& object = element("accessors", accessor);
+  const SortedJson& object = element("accessors", accessor);
   const auto type = index_at(object, "componentType"), count = index_at(object, "count");
   if (!type || !count || bytes_of(*type) == 0) return std::nullopt;
-  const auto normalized = object.find("normalized");
+  const SortedJson* normalized = object.find("normalized");
   const Layout layout{*type, components_of(text_at(object, "type")), *count,
-                      normalized != object.end() && normalized->is_boolean() && normalized->get<bool>()};
+                      normalized && normalized->is_boolean() && normalized->get<bool>()};
   GltfNumbers out{layout.count, layout.components, {}};
   if (layout.components == 0 || !read_dense(object, layout, out) || !read_sparse(object, layout, out))
     return std::nullopt;

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <bodice/engine/json.hpp>
 
 namespace bodice::inline v0_1::io {
 
@@ -25,9 +25,9 @@ class GltfDocument {
   /// version 2.
   static std::optional<GltfDocument> open(const std::filesystem::path& file);
 
-  const nlohmann::json& root() const { return json_; }
+  const engine::SortedJson& root() const { return json_; }
   /// Element `index` of one of the document's arrays ("nodes", "skins", ...); null where there is none.
-  const nlohmann::json& element(const char* array, std::size_t index) const;
+  const engine::SortedJson& element(const char* array, std::size_t index) const;
   /// Empty where the accessor does not exist or points outside of its buffer.
   std::optional<GltfNumbers> numbers(std::size_t accessor) const;
   /// The bytes of a buffer view; none where it points outside of its buffer.
@@ -36,18 +36,18 @@ class GltfDocument {
  private:
   struct Layout;
 
-  bool read_dense(const nlohmann::json& accessor, const Layout& layout, GltfNumbers& out) const;
-  bool read_sparse(const nlohmann::json& accessor, const Layout& layout, GltfNumbers& out) const;
+  bool read_dense(const engine::SortedJson& accessor, const Layout& layout, GltfNumbers& out) const;
+  bool read_sparse(const engine::SortedJson& accessor, const Layout& layout, GltfNumbers& out) const;
 
-  nlohmann::json json_;
+  engine::SortedJson json_;
   std::vector<std::string> buffers_;
 };
 
 /// A whole number that is not negative under a key; empty where there is none.
-std::optional<std::size_t> index_at(const nlohmann::json& object, const char* key);
+std::optional<std::size_t> index_at(const engine::SortedJson& object, const char* key);
 /// A text under a key, or an empty one.
-std::string text_at(const nlohmann::json& object, const char* key);
+std::string text_at(const engine::SortedJson& object, const char* key);
 /// The array under a key, or an empty one.
-const nlohmann::json& array_at(const nlohmann::json& object, const char* key);
+const engine::SortedJson& array_at(const engine::SortedJson& object, const char* key);
 
 }  // namespace bodice::io

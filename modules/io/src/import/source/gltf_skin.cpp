@@ -7,9 +7,9 @@ namespace bodice::inline v0_1::io {
 
 namespace {
 
-using nlohmann::json;
+using engine::SortedJson;
 
-rig::Interpolation interpolation_of(const json& sampler) {
+rig::Interpolation interpolation_of(const SortedJson& sampler) {
   const std::string name = text_at(sampler, "interpolation");
   if (name == "STEP") return rig::Interpolation::kStep;
   return name == "CUBICSPLINE" ? rig::Interpolation::kCubic : rig::Interpolation::kLinear;
@@ -23,7 +23,8 @@ Eigen::Quaterniond make(const double* at, const Eigen::Quaterniond&) {
 }
 
 template <class T>
-bool read(const GltfDocument& document, const json& sampler, std::size_t components, rig::Keys<T>& keys) {
+bool read(const GltfDocument& document, const SortedJson& sampler, std::size_t components,
+          rig::Keys<T>& keys) {
   const auto time_at = index_at(sampler, "input"), value_at = index_at(sampler, "output");
   const auto time = time_at ? document.numbers(*time_at) : std::nullopt;
   const auto value = value_at ? document.numbers(*value_at) : std::nullopt;
@@ -42,7 +43,7 @@ bool read(const GltfDocument& document, const json& sampler, std::size_t compone
 
 }  // namespace
 
-bool visit_weights(const GltfDocument& document, const json& attributes, std::size_t set,
+bool visit_weights(const GltfDocument& document, const SortedJson& attributes, std::size_t set,
                    engine::FunctionRef<void(std::uint32_t, double, double)> visit) {
   const auto joints_at = index_at(attributes, ("JOINTS_" + std::to_string(set)).c_str());
   const auto weights_at = index_at(attributes, ("WEIGHTS_" + std::to_string(set)).c_str());
@@ -56,11 +57,11 @@ bool visit_weights(const GltfDocument& document, const json& attributes, std::si
   return true;
 }
 
-bool read_keys(const GltfDocument& document, const json& sampler, rig::Keys<rig::Vec3>& keys) {
+bool read_keys(const GltfDocument& document, const SortedJson& sampler, rig::Keys<rig::Vec3>& keys) {
   return read(document, sampler, 3, keys);
 }
 
-bool read_keys(const GltfDocument& document, const json& sampler, rig::Keys<rig::Quaternion>& keys) {
+bool read_keys(const GltfDocument& document, const SortedJson& sampler, rig::Keys<rig::Quaternion>& keys) {
   return read(document, sampler, 4, keys);
 }
 
