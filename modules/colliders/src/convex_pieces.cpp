@@ -4,10 +4,9 @@
 #include <memory>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-
 #include <bodice/colliders/convex_pieces.hpp>
 #include <bodice/engine/parallel.hpp>
+#include <bodice/geometry/decompositions.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
 
 #include "cost_by.hpp"
@@ -38,9 +37,9 @@ std::vector<Vec3> farthest_points(const SkinPoints& points, const Members& membe
     const Vec3 off = points.position[p] - mean;
     moment += off * off.transpose() / static_cast<double>(members.size());
   }
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(moment);
-  const Vec3 spread = solver.eigenvalues().cwiseMax(1e-12).cwiseSqrt();
-  const Mat3 even = spread.cwiseInverse().asDiagonal() * solver.eigenvectors().transpose();
+  const geometry::SymmetricEigen eigen = geometry::eigen_of_symmetric(moment);
+  const Vec3 spread = eigen.values.cwiseMax(1e-12).cwiseSqrt();
+  const Mat3 even = spread.cwiseInverse().asDiagonal() * eigen.vectors.transpose();
   Members chosen;
   for (int k = 0; k < kMostCorners; ++k) {
     const Vec3 along = even.transpose() * spiral_direction(k, kMostCorners);

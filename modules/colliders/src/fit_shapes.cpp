@@ -8,9 +8,9 @@
 #include <limits>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include <bodice/engine/parallel.hpp>
+#include <bodice/geometry/decompositions.hpp>
 
 namespace bodice::inline v0_1::colliders {
 namespace {
@@ -50,7 +50,7 @@ Spread spread_of(const SkinPoints& points, std::span<const std::uint32_t> member
     const Vec3 off = points.position[p] - spread.mean;
     moment += points.area[p] * off * off.transpose();
   }
-  spread.axis = Eigen::SelfAdjointEigenSolver<Mat3>(moment).eigenvectors().col(2);
+  spread.axis = geometry::eigen_of_symmetric(moment).vectors.col(2);
   return spread;
 }
 

@@ -5,9 +5,8 @@
 #include <numbers>
 #include <numeric>
 
-#include <Eigen/Eigenvalues>
-
 #include <bodice/engine/message.hpp>
+#include <bodice/geometry/decompositions.hpp>
 #include <bodice/io/scene.hpp>
 
 namespace bodice::inline v0_1::page {
@@ -17,9 +16,9 @@ namespace {
 std::string ellipse(const proxy::ProxyEllipsoid& e) {
   geometry::Mat3 shape = e.shape.axes * e.shape.radii.cwiseAbs2().asDiagonal() * e.shape.axes.transpose();
   shape.row(2).setZero(), shape.col(2).setZero();  // adds an eigenvalue of 0, which is the least
-  const Eigen::SelfAdjointEigenSolver<geometry::Mat3> solver(shape);
-  const geometry::Vec3 radii = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  const geometry::Vec3 axis = solver.eigenvectors().col(2);
+  const geometry::SymmetricEigen eigen = geometry::eigen_of_symmetric(shape);
+  const geometry::Vec3 radii = eigen.values.cwiseMax(0.0).cwiseSqrt();
+  const geometry::Vec3 axis = eigen.vectors.col(2);
   const double turn_deg = -std::atan2(axis.y(), axis.x()) * 180.0 / std::numbers::pi;
   const auto color = io::part_color(e.part);
   const auto channel = [&](std::size_t k) { return static_cast<int>(255.0f * color[k]); };

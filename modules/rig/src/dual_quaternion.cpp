@@ -2,9 +2,8 @@
 // Dual Quaternion Blending. 2008. - sections 3 (linear blending of dual quaternions), 4.2 (scale and shear in
 // a first phase) Differs: the signs of the blended quaternions follow the vertex's first joint; a reflection
 // is part of the stretch.
-#include <Eigen/SVD>
-
 #include <bodice/engine/parallel.hpp>
+#include <bodice/geometry/decompositions.hpp>
 #include <bodice/rig/skinning.hpp>
 
 #include "grain.hpp"
@@ -18,9 +17,7 @@ using Eigen::Vector4d;
 
 /// The rotation nearest to a matrix; never a reflection.
 Mat3 nearest_rotation(const Mat3& linear) {
-  const Eigen::JacobiSVD<Mat3> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Mat3& v = svd.matrixV();
-  Mat3 u = svd.matrixU();
+  auto [u, values, v, is_valid] = geometry::singular_values(linear);
   if ((u * v.transpose()).determinant() < 0.0) u.col(2) = -u.col(2);
   return u * v.transpose();
 }

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <bodice/engine/parallel.hpp>
+#include <bodice/geometry/decompositions.hpp>
 
 #include "measure/triangle_strain.hpp"
 
@@ -50,7 +50,7 @@ struct SkinMoments {
   /// component. Along it, a tube of length L has the variance L^2 / 12.
   double girth_m() const {
     if (!(area_m2 > 0.0)) return 0.0;
-    const Vec3 axis = Eigen::SelfAdjointEigenSolver<geometry::Mat3>(normals).eigenvectors().col(0);
+    const Vec3 axis = geometry::eigen_of_symmetric(normals).vectors.col(0);
     const double mean = axis.dot(moment) / area_m2;
     const double variance = axis.dot(second * axis) / area_m2 - mean * mean;
     return variance > 0.0 ? area_m2 / std::sqrt(12.0 * variance) : 0.0;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include <Eigen/SVD>
+#include <bodice/geometry/decompositions.hpp>
 
 namespace bodice::inline v0_1::io {
 
@@ -22,12 +22,12 @@ struct ShearSplit {
 };
 
 ShearSplit split_shear(const Mat3& linear) {
-  const Eigen::JacobiSVD<Mat3> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  if (svd.info() != Eigen::Success) return {linear, Mat3::Identity()};  // its squares overflow
+  const geometry::SingularValues svd = geometry::singular_values(linear);
+  if (!svd.is_valid) return {linear, Mat3::Identity()};  // its squares overflow
   // A mirror stands on both sides, so that it cancels.
-  const double mirror = svd.matrixV().determinant() < 0.0 ? -1.0 : 1.0;
-  ShearSplit split{mirror * svd.matrixU(), mirror * svd.matrixV().transpose()};
-  for (int k = 0; k < 3; ++k) split.stretch.col(k) *= svd.singularValues()[k];
+  const double mirror = svd.v.determinant() < 0.0 ? -1.0 : 1.0;
+  ShearSplit split{mirror * svd.u, mirror * svd.v.transpose()};
+  for (int k = 0; k < 3; ++k) split.stretch.col(k) *= svd.values[k];
   return split;
 }
 
