@@ -3,6 +3,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <ranges>
@@ -60,6 +61,7 @@ class BasicJson {
 
   BasicJson(std::initializer_list<Item> items);
   BasicJson(const char* text);
+  BasicJson(std::nullptr_t) = delete;  ///< null is BasicJson()
   BasicJson(std::string_view text);
   BasicJson(std::string text);
   BasicJson(std::same_as<bool> auto value) : kind_(Kind::kBoolean) { data_.boolean = value; }

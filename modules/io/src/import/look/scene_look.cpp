@@ -123,7 +123,7 @@ SortedJson SceneLook::texture(const aiMaterial& material, std::initializer_list<
     out_.materials.textures.push_back(std::move(texture));
     return reference;
   }
-  return nullptr;
+  return {};
 }
 
 std::optional<std::size_t> SceneLook::image(const std::string& name) {
