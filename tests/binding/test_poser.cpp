@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 
 #include <bodice/engine/random.hpp>
 #include <bodice_test/allocations.hpp>
@@ -240,6 +241,25 @@ TEST_CASE("an entry that is off by a thousandth is mended; a bone that turns by 
   }
   for (const Vec3& point : points_near(moving, 50))
     CHECK(std::isfinite(proxy::posed_proxy_distance(moving.bound, poser.posed(), point).distance));
+}
+
+TEST_CASE("arms and legs that turn by any angle fold no ellipsoid and turn none inside out") {
+  const MovingBody& moving = moving_body();
+  binding::Poser poser = make_poser(moving);
+  for (double degrees = 20.0; degrees <= 180.0; degrees += 20.0) {
+    REQUIRE(poser.pose({}, turned(moving.body.skeleton, {{"upper_arm_l", {Vec3::UnitZ(), degrees}},
+                                                         {"upper_arm_r", {Vec3::UnitZ(), -degrees}},
+                                                         {"thigh_l", {Vec3::UnitX(), -degrees}},
+                                                         {"thigh_r", {Vec3::UnitX(), -degrees}}})));
+    for (std::size_t k = 0; k < moving.bound.ellipsoids().size(); ++k) {
+      const geometry::Ellipsoid& rest = moving.bound.ellipsoids()[k].shape;
+      const geometry::Mat3 map = poser.posed().material[k] * rest.radii.cwiseInverse().asDiagonal() *
+                                 rest.axes.transpose();
+      CAPTURE(k);
+      CHECK(map.determinant() > 0.0);
+      CHECK(Eigen::JacobiSVD<geometry::Mat3>(map).singularValues().minCoeff() > 0.4);
+    }
+  }
 }
 
 TEST_CASE("a proxy without a binding cannot be posed") {

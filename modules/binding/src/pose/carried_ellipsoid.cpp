@@ -37,6 +37,18 @@ proxy::JointMatrix affine_map(std::span<const proxy::CarryTerm> terms,
   return map;
 }
 
+proxy::JointMatrix unfolded(const proxy::JointMatrix& map, const Vec3& center, double body_scale) {
+  const Mat3 linear = map.leftCols<3>();
+  if (linear.determinant() > kFoldedVolume * body_scale * body_scale * body_scale) return map;
+  const Svd3 svd = svd3(linear);
+  Vec3 lengths = svd.values.cwiseMax(kLeastLength * body_scale);
+  if (svd.right.determinant() < 0.0) lengths[2] *= -1.0;  // the map mirrors along the axis that it folds
+  const Mat3 kept = svd.left * lengths.asDiagonal() * svd.right.transpose();
+  proxy::JointMatrix result;
+  result << kept, map.col(3) + (linear - kept) * center;
+  return result;
+}
+
 CarriedEllipsoid carry(const geometry::Ellipsoid& rest, const proxy::JointMatrix& map) {
   const Mat3 linear = map.leftCols<3>();
   const Svd3 svd = svd3(linear * rest.axes * rest.radii.asDiagonal());

@@ -153,7 +153,7 @@ void Poser::Impl::pose_ellipsoid(std::size_t k, const PoseOptions& options, Tabl
                                  proxy::PosedProxy& posed) {
   const geometry::Ellipsoid& rest = bound.ellipsoids()[k].shape;
   const auto terms = terms_of(k);
-  const JointMatrix map = affine_map(terms, joints.skinning());
+  const JointMatrix map = unfolded(affine_map(terms, joints.skinning()), rest.center, joints.scale());
   bool tables = options.tables && follows(k) && !move_alike(rest, terms, joints.skinning());
   CarriedEllipsoid carried = tables ? carry(rest, map) : carry_stiffly(rest, map);
   if (tables && !reached(carried.shape, options)) {

@@ -55,7 +55,7 @@ void TableWarp::Impl::carry_one(std::size_t k) {
   const geometry::Ellipsoid& rest = bound.ellipsoids()[k].shape;
   const std::size_t first = binding.first_term[k];
   const auto terms = std::span(binding.terms).subspan(first, binding.first_term[k + 1] - first);
-  const proxy::JointMatrix map = affine_map(terms, joints.skinning());
+  const proxy::JointMatrix map = unfolded(affine_map(terms, joints.skinning()), rest.center, joints.scale());
   const bool follows = binding.first_bundle[k] < binding.first_bundle[k + 1];
   carried[k] = follows ? carry(rest, map) : carry_stiffly(rest, map);
   shapes[k] = carried[k].shape;
