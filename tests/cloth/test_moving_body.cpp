@@ -222,7 +222,7 @@ TEST_CASE("moving body: continuous collision of one fast particle does not chang
     if (one_is_pulled) p.old_y[kLong] = 0.07f, p.y[kLong] = -0.07f;
     cloth::BodyMotion motion = cloth::make_motion(kCount, 0.5);
     motion.ccd_threshold_m = 0.01f;
-    motion.rotations.resize(body.size());
+    motion.ellipsoids.resize(body.size());
     cloth::begin_motion_frame({}, {.body = &body, .moving = true, .length_s = kFrame_s}, p, motion, {});
     const cloth::BodyContact contact = {
         .body = &body, .how = {.thickness_m = 0.002f}, .substep = {.share = {0.9f, 1.0f}}};
@@ -250,7 +250,7 @@ TEST_CASE("moving body: a push is along the body's normal at the end of the subs
   p.y[0] = static_cast<float>(0.052 - body.origin().y());
   cloth::BodyMotion motion = cloth::make_motion(1, 0.5);
   motion.ccd_threshold_m = 1.0f;
-  motion.rotations.resize(body.size());
+  motion.ellipsoids.resize(body.size());
   cloth::begin_motion_frame({}, {.body = &body, .moving = true, .length_s = kFrame_s}, p, motion, {});
   const Vec3 normal = Eigen::AngleAxisd(0.5 * kTurn_rad, Vec3::UnitZ()) * Vec3::UnitY();
   const Vec3 inside = 0.045 * normal - body.origin();
@@ -261,6 +261,22 @@ TEST_CASE("moving body: a push is along the body's normal at the end of the subs
   const Vec3 push = Vec3(double{p.x[0]}, double{p.y[0]}, double{p.z[0]}) - inside;
   CHECK(push.norm() > 0.004);
   CHECK(push.normalized().dot(normal) > 0.999);
+}
+
+TEST_CASE("moving body: material of a limb that becomes flat in a frame moves with its surface") {
+  for (const double flat : {0.6, 0.3, 0.1}) {
+    geometry::Ellipsoid limb{Vec3::Zero(), geometry::Mat3::Identity(), Vec3(0.3, 0.05, 0.05)};
+    collision::Collider body = ellipsoid_body(limb.center, limb.radii);
+    limb.radii.y() *= flat;
+    move(body, limb);
+    cloth::Particles p = particles_at_rest(1);
+    p.y[0] = static_cast<float>(0.05 - body.origin().y());
+    cloth::BodyMotion motion = cloth::make_motion(1, 0.5);
+    motion.ellipsoids.resize(body.size());
+    cloth::begin_motion_frame({}, {.body = &body, .moving = true, .length_s = kFrame_s}, p, motion, {});
+    CHECK(double{motion.displacement[0].y} == doctest::Approx(0.05 * (flat - 1.0)).epsilon(1e-3));
+    CHECK(motion.displacement[0].x == doctest::Approx(0.0).epsilon(1e-6));
+  }
 }
 
 TEST_CASE("moving body: a step allocates nothing once warm") {

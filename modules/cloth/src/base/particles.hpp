@@ -11,6 +11,7 @@
 namespace bodice::inline v0_1::cloth {
 
 using geometry::Index;
+using geometry::Mat3;
 using geometry::Triangle;
 using geometry::Vec3;
 

@@ -191,7 +191,7 @@ void begin_contact_frame(const engine::Context& context, const ContactFrame& giv
   // The paper's response has distances of its own and uses surface velocities by itself.
   if (options.response == collision::Response::kPaper) frame.body = nullptr;
   // Memory is allocated before the body moves.
-  if (frame.body != nullptr) s.motion.rotations.resize(frame.body->size());
+  if (frame.body != nullptr) s.motion.ellipsoids.resize(frame.body->size());
   begin_motion_frame(context, frame, particles, s.motion, s.faces.nearest);
   begin_clearance_frame(context, frame, s.touching, particles, s.clearance);
   s.faces.on = false;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/LU>
+
 #include <bodice/engine/parallel.hpp>
 
 #include "base/tolerances.hpp"
@@ -13,6 +15,9 @@ namespace {
 // With at least this coefficient of friction cloth follows the surface wholly, with less by a proportional
 // share.
 constexpr double kFollowingFriction = 0.2;
+// If the volume of an ellipsoid grows by more than the inverse of this in a frame, where its material was is
+// unknown.
+constexpr double kLeastGrowth = 1e-3;
 
 Point point(const Vec3& v) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), 0.0f};
@@ -34,31 +39,21 @@ struct Moved {
   }
 };
 
-// Velocities belong to positions at the end of a frame, so that the displacement of a point at its start is
-// found by iteration. A step leaves about as much of the error as the ellipsoid turns by in the frame, in
-// radians.
-constexpr int kDisplacementSteps = 4;
-
-// The displacement in a frame of the material that moves with an ellipsoid and is at `start` when the frame
-// begins.
-Vec3 displacement(const collision::Collider& body, std::uint32_t ellipsoid, double frame_s,
-                  const Vec3& start) {
-  Vec3 by = Vec3::Zero();
-  for (int step = 0; step < kDisplacementSteps; ++step)
-    by = frame_s * body.surface_velocity(ellipsoid, start + by);
-  return by;
-}
-
-// The rotation of each ellipsoid in the frame: half the curl of its velocity, which is an affine function,
-// times the length of the frame.
-void find_rotations(const collision::Collider& body, double frame_s, std::span<Vec3> turns) {
-  for (std::uint32_t k = 0; k < turns.size(); ++k) {
-    const Vec3 still = body.surface_velocity(k, Vec3::Zero());
-    const Vec3 x = body.surface_velocity(k, Vec3::UnitX()) - still,
-               y = body.surface_velocity(k, Vec3::UnitY()) - still,
-               z = body.surface_velocity(k, Vec3::UnitZ()) - still;
-    turns[k] = 0.5 * frame_s * Vec3(y.z() - z.y(), z.x() - x.z(), x.y() - y.x());
-  }
+// The motion of the material of one ellipsoid in a frame. Velocities belong to positions when the frame ends,
+// where they are an affine function: displacement(end) = A end + b.
+EllipsoidMotion motion_of(const collision::Collider& body, std::uint32_t ellipsoid, double frame_s) {
+  const Vec3 b = frame_s * body.surface_velocity(ellipsoid, Vec3::Zero());
+  Mat3 a;
+  for (int column = 0; column < 3; ++column)
+    a.col(column) = frame_s * body.surface_velocity(ellipsoid, Vec3::Unit(column)) - b;
+  // The rotation vector is half the curl of the displacement.
+  const Vec3 rotation = 0.5 * Vec3(a(2, 1) - a(1, 2), a(0, 2) - a(2, 0), a(1, 0) - a(0, 1));
+  // end = start + A end + b. An ellipsoid that grows from next to nothing has no such inverse.
+  Mat3 from_start;
+  bool invertible = false;
+  (Mat3::Identity() - a).eval().computeInverseWithCheck(from_start, invertible, kLeastGrowth);
+  if (!invertible) return {a, b, rotation};
+  return {from_start - Mat3::Identity(), from_start * b, rotation};
 }
 
 // Finds the motion of the nearest material for each particle. The pose when the frame began is no longer
@@ -79,7 +74,8 @@ void find_motion(const ContactFrame& frame, std::size_t begin, std::size_t end, 
   for (std::size_t k = 0; k < end - begin; ++k) {
     const std::uint32_t known = motion.owner[begin + k];
     const std::uint32_t owner = known != collision::kNoEllipsoid ? known : nearest[k].ellipsoid;
-    const Vec3 by = displacement(body, owner, frame.length_s, points.at(k));
+    const Vec3 by =
+        owner < motion.ellipsoids.size() ? motion.ellipsoids[owner].displacement(points.at(k)) : Vec3::Zero();
     points.put(k, points.x[k], points.y[k], points.z[k], load(point(by)));
   }
   points.query(body, end - begin, nearest);
@@ -91,7 +87,8 @@ void find_motion(const ContactFrame& frame, std::size_t begin, std::size_t end, 
     const collision::Contact& at = nearest[i - begin];
     const Vec3 by = frame.length_s * body.surface_velocity(at.ellipsoid, points.at(i - begin));
     const Vec3 normal = Eigen::Map<const Eigen::Vector3f>(at.normal).cast<double>();
-    const Vec3 turn = at.ellipsoid < motion.rotations.size() ? motion.rotations[at.ellipsoid] : Vec3::Zero();
+    const Vec3 turn =
+        at.ellipsoid < motion.ellipsoids.size() ? motion.ellipsoids[at.ellipsoid].rotation : Vec3::Zero();
     motion.displacement[i] = point(by), motion.normal[i] = point(normal);
     motion.shift[i] = point(follow * by + (1.0 - follow) * by.dot(normal) * normal);
     motion.rotation[i] = point(follow * turn);
@@ -204,7 +201,8 @@ void begin_motion_frame(const engine::Context& context, const ContactFrame& fram
     std::ranges::fill(motion.along_pushes_m2, 0.0f);
     return;
   }
-  find_rotations(*frame.body, frame.length_s, motion.rotations);
+  for (std::uint32_t k = 0; k < motion.ellipsoids.size(); ++k)
+    motion.ellipsoids[k] = motion_of(*frame.body, k, frame.length_s);
   engine::parallel_for(context, p.count(), kPatch, [&](std::size_t begin, std::size_t end) {
     find_motion(frame, begin, end, p, motion, nearest);
   });

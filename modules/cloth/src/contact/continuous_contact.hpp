@@ -23,6 +23,16 @@ namespace bodice::inline v0_1::cloth {
 /// The number of particles in a task of contact, and the most that resolve_moving() takes.
 inline constexpr std::size_t kPatch = 512;
 
+/// The motion of an ellipsoid's material in a frame: an affine function of where a point starts.
+struct EllipsoidMotion {
+  Mat3 linear = Mat3::Zero();
+  Vec3 translation = Vec3::Zero();
+  Vec3 rotation = Vec3::Zero();  ///< rotation vector, radians
+
+  /// The displacement in the frame of the material that is at `start` when the frame begins, meters.
+  Vec3 displacement(const Vec3& start) const { return linear * start + translation; }
+};
+
 /// The motion of the body in a frame, near each particle.
 struct BodyMotion {
   float ccd_threshold_m = 0.0f;  ///< paths in a substep that are longer than this, relative to the body, take
@@ -44,7 +54,7 @@ struct BodyMotion {
   std::vector<float> along_pushes_m2;
   /// #P: the ellipsoid nearest to the particle when the last frame ended, or kNoEllipsoid.
   std::vector<std::uint32_t> owner;
-  std::vector<Vec3> rotations;  ///< #ellipsoids of the body: how each turns in the frame, radians
+  std::vector<EllipsoidMotion> ellipsoids;  ///< those of the body
 };
 
 /// The state for this number of particles of cloth with this coefficient of friction, near a body at rest.
@@ -60,7 +70,7 @@ bool is_moving(const collision::Collider& body);
 
 /// Begins a frame: finds the motion of the body near each particle. `nearest` (#P, or empty) receives the
 /// contacts of the particles after they are moved by `displacement`. Cost: a query a particle if the body
-/// moves, two where owners are not known, and nothing otherwise. Precondition: `rotations` has one element
+/// moves, two where owners are not known, and nothing otherwise. Precondition: `ellipsoids` has one element
 /// for each ellipsoid.
 void begin_motion_frame(const engine::Context& context, const ContactFrame& frame, const Particles& particles,
                         BodyMotion& motion, std::span<collision::Contact> nearest);
