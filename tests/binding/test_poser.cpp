@@ -253,8 +253,8 @@ TEST_CASE("arms and legs that turn by any angle fold no ellipsoid and turn none 
                                                          {"thigh_r", {Vec3::UnitX(), -degrees}}})));
     for (std::size_t k = 0; k < moving.bound.ellipsoids().size(); ++k) {
       const geometry::Ellipsoid& rest = moving.bound.ellipsoids()[k].shape;
-      const geometry::Mat3 map = poser.posed().material[k] * rest.radii.cwiseInverse().asDiagonal() *
-                                 rest.axes.transpose();
+      const geometry::Mat3 map =
+          poser.posed().material[k] * rest.radii.cwiseInverse().asDiagonal() * rest.axes.transpose();
       CAPTURE(k);
       CHECK(map.determinant() > 0.0);
       CHECK(Eigen::JacobiSVD<geometry::Mat3>(map).singularValues().minCoeff() > 0.4);
