@@ -5,8 +5,8 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 
+#include <bodice/geometry/decompositions.hpp>
 #include <bodice/rig/skeleton.hpp>
 
 #include "pose/carried_ellipsoid.hpp"
@@ -35,7 +35,7 @@ JointMatrix shrunk(double factor, double scale) {
 }
 
 Vec3 lengths(const JointMatrix& map) {
-  return Eigen::JacobiSVD<Mat3>(map.leftCols<3>()).singularValues();
+  return geometry::singular_values(map.leftCols<3>()).values;
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ struct JsonError : std::runtime_error {
       : std::runtime_error(text), kind(kind_), byte(byte_) {}
 
   Kind kind;
-  std::size_t byte;  ///< of a syntax error: so many bytes have been read
+  std::size_t byte;  ///< bytes that were read before the error in a text was found; 0 for kType
 };
 
 /// How values become text.

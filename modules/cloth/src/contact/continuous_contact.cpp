@@ -74,8 +74,7 @@ void find_motion(const ContactFrame& frame, std::size_t begin, std::size_t end, 
   for (std::size_t k = 0; k < end - begin; ++k) {
     const std::uint32_t known = motion.owner[begin + k];
     const std::uint32_t owner = known != collision::kNoEllipsoid ? known : nearest[k].ellipsoid;
-    const Vec3 by =
-        owner < motion.ellipsoids.size() ? motion.ellipsoids[owner].displacement(points.at(k)) : Vec3::Zero();
+    const Vec3 by = motion.of(owner).displacement(points.at(k));
     points.put(k, points.x[k], points.y[k], points.z[k], load(point(by)));
   }
   points.query(body, end - begin, nearest);
@@ -87,11 +86,9 @@ void find_motion(const ContactFrame& frame, std::size_t begin, std::size_t end, 
     const collision::Contact& at = nearest[i - begin];
     const Vec3 by = frame.length_s * body.surface_velocity(at.ellipsoid, points.at(i - begin));
     const Vec3 normal = Eigen::Map<const Eigen::Vector3f>(at.normal).cast<double>();
-    const Vec3 turn =
-        at.ellipsoid < motion.ellipsoids.size() ? motion.ellipsoids[at.ellipsoid].rotation : Vec3::Zero();
     motion.displacement[i] = point(by), motion.normal[i] = point(normal);
     motion.shift[i] = point(follow * by + (1.0 - follow) * by.dot(normal) * normal);
-    motion.rotation[i] = point(follow * turn);
+    motion.rotation[i] = point(follow * motion.of(at.ellipsoid).rotation);
     motion.free_ball[i] = point(points.at(i - begin));
     motion.free_ball[i].weight = (at.signed_distance - touching_m) / steepness.slope;
   }

@@ -55,6 +55,11 @@ struct BodyMotion {
   /// #P: the ellipsoid nearest to the particle when the last frame ended, or kNoEllipsoid.
   std::vector<std::uint32_t> owner;
   std::vector<EllipsoidMotion> ellipsoids;  ///< those of the body
+
+  /// The motion of an ellipsoid of the body; none for kNoEllipsoid.
+  EllipsoidMotion of(std::uint32_t ellipsoid) const {
+    return ellipsoid < ellipsoids.size() ? ellipsoids[ellipsoid] : EllipsoidMotion{};
+  }
 };
 
 /// The state for this number of particles of cloth with this coefficient of friction, near a body at rest.
