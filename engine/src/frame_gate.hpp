@@ -4,7 +4,9 @@
 #include <atomic>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <thread>
+#include <vector>
 
 #include <bodice/engine/executor.hpp>
 #include <bodice/engine/frame_pipeline.hpp>
@@ -37,6 +39,8 @@ class FrameGate {
   /// however long the frames are.
   FrameGate(int frame_workers, BackgroundYield policy, double background_share, const Clock& clock)
       : seats_(frame_workers),
+        ranges_(static_cast<std::size_t>(frame_workers)),
+        owners_(static_cast<std::size_t>(frame_workers)),
         policy_(policy),
         own_per_stay_(background_share / (1.0 - background_share)),
         clock_(clock) {}
@@ -47,26 +51,36 @@ class FrameGate {
   }
   void end_frame() noexcept { epoch_.fetch_add(1); }
 
-  /// One loop with its number of seats. Its destructor releases the visitors.
-  struct OpenLoop {
-    IndexLoop indices;
-    std::atomic<int> seats;
+  /// A loop of a frame. Each thread begins with the same share of the indices in every loop, so that what it
+  /// read and wrote in the loop before is still in the cache of its processor.
+  class OpenLoop {
+   public:
+    OpenLoop(std::size_t count, FunctionRef<void(std::size_t)> body, FrameGate& gate)
+        : indices(count, body, gate.ranges_for(count)), gate_(gate), seats_(gate.seats_) {}
+
     void work() noexcept {
-      if (seats.fetch_sub(1, std::memory_order_relaxed) > 0) indices.work();
+      const int left = seats_.fetch_sub(1, std::memory_order_relaxed);
+      if (left > 0) indices.work(gate_.seat_of_thread(gate_.seats_ - left));
     }
+
+    IndexLoop indices;
+
+   private:
+    FrameGate& gate_;
+    std::atomic<int> seats_;
   };
 
   int seats() const noexcept { return seats_; }
-  bool open(OpenLoop& loop) noexcept {
-    OpenLoop* none = nullptr;
-    return open_.compare_exchange_strong(none, &loop);
-  }
+  /// Takes the gate for one loop, until close(); false if another loop has it.
+  bool take() noexcept { return !taken_.exchange(true); }
+  void open(OpenLoop& loop) noexcept { open_.store(&loop); }
   /// Returns when no background thread is in the loop any more.
   void close() noexcept {
     // A visitor counts itself before it looks for the loop, while here the loop is removed before the count
     // is read. In the total order of seq_cst, a visitor that this misses finds no loop.
     open_.store(nullptr);
     for (Backoff backoff; visitors_.load() != 0;) backoff.pause();
+    taken_.store(false);
   }
 
   /// Handles a checkpoint of a background thread.
@@ -96,6 +110,21 @@ class FrameGate {
     busy_until_ns_.store(end_ns + own_ns, std::memory_order_relaxed);
   }
 
+  std::span<IndexRange> ranges_for(std::size_t count) noexcept {
+    return std::span(ranges_).first(std::min(count, ranges_.size()));
+  }
+
+  // The seat that this thread has had since its first loop, or `otherwise` where others have them all.
+  std::size_t seat_of_thread(int otherwise) noexcept {
+    const std::thread::id self = std::this_thread::get_id();
+    for (std::size_t seat = 0; seat < owners_.size(); ++seat) {
+      std::thread::id owner = owners_[seat].load(std::memory_order_relaxed);
+      if (owner == self) return seat;
+      if (owner == std::thread::id() && owners_[seat].compare_exchange_strong(owner, self)) return seat;
+    }
+    return static_cast<std::size_t>(otherwise);
+  }
+
   bool help() noexcept {
     if (!open_.load(std::memory_order_relaxed)) return false;
     visitors_.fetch_add(1);
@@ -106,12 +135,15 @@ class FrameGate {
   }
 
   const int seats_;
+  std::vector<IndexRange> ranges_;                    // #seats
+  std::vector<std::atomic<std::thread::id>> owners_;  // #seats: the thread of each, or none
   const BackgroundYield policy_;
   const double own_per_stay_;
   const Clock& clock_;
   std::atomic<std::thread::id> frame_thread_{};
   alignas(64) std::atomic<std::uint64_t> epoch_{0};  // odd while a frame runs
   alignas(64) std::atomic<OpenLoop*> open_{nullptr};
+  std::atomic<bool> taken_{false};
   alignas(64) std::atomic<int> visitors_{0};
   alignas(64) std::atomic<int> guests_{0};
   // All helpers stay until the same moment, so that one time serves all of them.
@@ -125,13 +157,17 @@ class FrameExecutor final : public Executor {
   int concurrency() const noexcept override { return gate_.seats(); }
 
   void bulk(std::size_t count, FunctionRef<void(std::size_t)> body) override {
-    FrameGate::OpenLoop loop{{count, body}, gate_.seats()};
-    if (count <= 1 || gate_.seats() == 1 || !gate_.open(loop)) {
-      // This loop is nested in an open loop. If a helping background thread waited for other threads here, it
-      // could take up background work, which would wait for this frame.
-      loop.indices.work();
-    } else {
-      const Closing closing(gate_);
+    if (count <= 1 || gate_.seats() == 1 || !gate_.take()) {
+      // Where the gate is taken, this loop is nested in an open one. If a helping background thread waited
+      // for other threads here, it could take up background work, which would wait for this frame.
+      IndexLoop loop(count, body);
+      loop.work();
+      loop.rethrow();
+      return;
+    }
+    FrameGate::OpenLoop loop(count, body, gate_);
+    {
+      const Opening opening(gate_, loop);
       const std::size_t runners = std::min(count, static_cast<std::size_t>(gate_.seats()));
       base_.bulk(runners, [&](std::size_t) { loop.work(); });
     }
@@ -140,11 +176,11 @@ class FrameExecutor final : public Executor {
 
  private:
   /// Closes the gate even if the base throws, because no thread may look for a loop that is gone.
-  struct Closing {
-    explicit Closing(FrameGate& open) : gate(open) {}
-    ~Closing() { gate.close(); }
-    Closing(const Closing&) = delete;
-    Closing& operator=(const Closing&) = delete;
+  struct Opening {
+    Opening(FrameGate& taken, FrameGate::OpenLoop& loop) : gate(taken) { gate.open(loop); }
+    ~Opening() { gate.close(); }
+    Opening(const Opening&) = delete;
+    Opening& operator=(const Opening&) = delete;
     FrameGate& gate;
   };
 

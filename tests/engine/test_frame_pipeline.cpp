@@ -1,9 +1,11 @@
 #include <doctest/doctest.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <bodice/engine/hash.hpp>
@@ -13,6 +15,7 @@
 #include "background.hpp"
 
 using namespace bodice::engine;
+using background::eventually;
 using background::refine;
 using bodice_test::all_executors;
 using bodice_test::make_threads;
@@ -136,6 +139,51 @@ TEST_CASE("an exception of the frame's body is rethrown, and the next frame runs
     });
   });
   CHECK(blocks == 100);
+}
+
+TEST_CASE("in every loop of a frame a thread begins with the same half of the indices") {
+  const auto executor = make_threads(2);
+  FramePipeline pipeline(Context{.executor = executor.get()}, {});
+  const std::thread::id no_thread{};
+  std::array<std::thread::id, 2> owner{no_thread, no_thread};
+  for (int loop = 0; loop < 50; ++loop) {
+    std::array<std::thread::id, 8> ran;
+    std::array<std::atomic<bool>, 2> begun{false, false};
+    pipeline.frame([&](const Context& context) {
+      parallel_for(context, ran.size(), 1, [&](std::size_t i, std::size_t) {
+        ran[i] = std::this_thread::get_id();
+        // Both threads wait for the first index of the other one, so that neither can take it.
+        if (i % 4 != 0) return;
+        begun[i / 4] = true;
+        CHECK(eventually([&] { return begun[1 - i / 4].load(); }));
+      });
+    });
+    for (std::size_t half = 0; half < 2; ++half) {
+      if (owner[half] == no_thread) owner[half] = ran[4 * half];
+      REQUIRE(ran[4 * half] == owner[half]);
+    }
+  }
+  CHECK(owner[0] != owner[1]);
+}
+
+TEST_CASE("a loop of a frame throws the exception of the least index that fails, on every executor") {
+  for (const auto& [name, executor] : all_executors()) {
+    CAPTURE(name);
+    FramePipeline pipeline(Context{.executor = executor.get()}, {});
+    for (int repeat = 0; repeat < 50; ++repeat) {
+      std::atomic<int> before{0};
+      const auto run = [&] {
+        pipeline.frame([&](const Context& context) {
+          parallel_for(context, 100, 1, [&](std::size_t i, std::size_t) {
+            if (i == 45 || i == 50 || i == 99) throw std::runtime_error(std::to_string(i));
+            before += i < 45;
+          });
+        });
+      };
+      REQUIRE_THROWS_WITH_AS(run(), "45", std::runtime_error);
+      REQUIRE(before == 45);
+    }
+  }
 }
 
 TEST_CASE("a thousand cancellations at random moments: results are whole, and old or new") {

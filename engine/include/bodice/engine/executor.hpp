@@ -28,8 +28,9 @@ class Executor {
   virtual int concurrency() const noexcept = 0;
 
   /// Calls body(i) once for each i in [0, count), in any order and on any worker, and returns when all
-  /// have ended. Bodies start in order of i; if some throw, no more start, and the exception of the least
-  /// i is rethrown after the running ones ended: the same one in every run.
+  /// have ended. If some throw, none with a larger i starts, and the exception of the least i is rethrown
+  /// after the running ones ended: the same one in every run. Bodies start in order of i, except in the loops
+  /// of a frame, where each worker begins with a share of its own (engine/FRAMES.md).
   /// While it waits, a thread runs only bodies of the same outermost bulk (engine/README.md, Threads).
   virtual void bulk(std::size_t count, FunctionRef<void(std::size_t)> body) = 0;
 
