@@ -20,12 +20,54 @@ constexpr float kLeftShare = 0.8f;
 /// An ellipsoid without a table has a flat one of two nodes a side, which is not its own and may not rise.
 constexpr int kLeastNodes = 3;
 constexpr std::size_t kOwnerGrain = 4;  // tables a task, some microseconds each
+constexpr std::size_t kPointGrain = 1024;
+constexpr std::size_t kBoxesAGroup = 16;  // a garment of 15,000 vertices has about 256 boxes
 
-bool is_within(const Vec3& point, const CoverOptions& options) {
-  if (!point.allFinite()) return false;
-  return !options.within || std::ranges::any_of(*options.within, [&](const geometry::Box& box) {
-    return (point.array() >= box.low.array()).all() && (point.array() <= box.high.array()).all();
+bool is_within(const Vec3& point, const geometry::Box& box) {
+  return (point.array() >= box.low.array()).all() && (point.array() <= box.high.array()).all();
+}
+
+/// The boxes of Collider::cover() in groups of consecutive ones, so that most points need few tests.
+class BoxGroups {
+ public:
+  BoxGroups(std::span<const geometry::Box> boxes, std::vector<geometry::Box>& bounds)
+      : boxes_(boxes), bounds_(bounds) {
+    bounds.assign(engine::block_count(boxes.size(), kBoxesAGroup), {});
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+      if (!(boxes[k].low.array() <= boxes[k].high.array()).all()) continue;  // it has no point
+      bounds[k / kBoxesAGroup].extend(boxes[k].low);
+      bounds[k / kBoxesAGroup].extend(boxes[k].high);
+    }
+  }
+
+  /// Whether a box has the point; `last` is the box that had the point before. Neighbors in an array of
+  /// vertices are mostly neighbors on the skin, so that this box is tried first.
+  bool have(const Vec3& point, std::size_t& last) const {
+    if (last < boxes_.size() && is_within(point, boxes_[last])) return true;
+    for (std::size_t g = 0; g < bounds_.size(); ++g) {
+      if (!is_within(point, bounds_[g])) continue;
+      for (last = g * kBoxesAGroup; last < std::min((g + 1) * kBoxesAGroup, boxes_.size()); ++last)
+        if (is_within(point, boxes_[last])) return true;
+    }
+    return false;
+  }
+
+ private:
+  std::span<const geometry::Box> boxes_, bounds_;
+};
+
+/// Lists the points that are finite and within the boxes.
+void list_points(const engine::Context& context, std::span<const Vec3> skin, const CoverOptions& options,
+                 CoverScratch& scratch) {
+  const BoxGroups boxes(options.within.value_or(std::span<const geometry::Box>()), scratch.bounds);
+  engine::parallel_for(context, skin.size(), kPointGrain, [&](std::size_t begin, std::size_t end) {
+    std::size_t last = 0;
+    for (std::size_t i = begin; i < end; ++i)
+      scratch.is_listed[i] = skin[i].allFinite() && (!options.within || boxes.have(skin[i], last));
   });
+  scratch.point.clear();
+  for (std::size_t i = 0; i < skin.size(); ++i)
+    if (scratch.is_listed[i] != 0) scratch.point.push_back(static_cast<std::uint32_t>(i));
 }
 
 void gather(std::span<const Vec3> skin, const Vec3& origin, CoverScratch& scratch) {
@@ -56,6 +98,7 @@ void CoverScratch::reserve(std::size_t points, std::size_t ellipsoids, std::size
   for (auto* axis : {&x, &y, &z}) axis->reserve(points);
   if (contacts.size() < points) contacts.resize(points);
   uncovered.reserve(points);
+  is_listed.resize(points);
   owners.reserve(ellipsoids);
   rise_m.resize(texels);
 }
@@ -102,9 +145,7 @@ CoverReport Collider::cover(const engine::Context& context, std::span<const Vec3
   if (!has_relief() || !(options.tolerance_m >= 0.0f)) return report;
   CoverScratch& scratch = impl_->cover;
   scratch.reserve(skin.size(), size(), impl_->texels);
-  scratch.point.clear();
-  for (std::size_t i = 0; i < skin.size(); ++i)
-    if (is_within(skin[i], options)) scratch.point.push_back(static_cast<std::uint32_t>(i));
+  list_points(context, skin, options, scratch);
   for (int round = 0;; ++round) {
     impl_->find_uncovered(context, skin, options.tolerance_m);
     report.left = scratch.uncovered.size();
