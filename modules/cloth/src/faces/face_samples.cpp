@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <bodice/engine/parallel.hpp>
 
@@ -102,16 +103,27 @@ int parts_of(const Placement& how, const Element& e, int wanted) {
 // Sets the parts of all elements and the first sample of each; returns the number of samples.
 std::size_t count_samples(const engine::Context& context, const Placement& how, const Elements& elements,
                           FaceSamples& s) {
-  engine::parallel_for(context, elements.all.size(), kElementGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t e = begin; e < end; ++e)
+  const auto samples_of = [&](std::size_t e) {
+    return s.parts[e] > 1 ? lattice_points(elements.all[e].is_edge(), s.parts[e]) : std::size_t{0};
+  };
+  const std::size_t count = elements.all.size();
+  engine::parallel_for(context, count, kElementGrain, [&](std::size_t begin, std::size_t end) {
+    std::size_t& samples = s.before_block[begin / kElementGrain] = 0;
+    for (std::size_t e = begin; e < end; ++e) {
       s.parts[e] = static_cast<std::uint8_t>(parts_of(how, elements.all[e], s.wanted[e]));
+      samples += samples_of(e);
+    }
   });
   std::size_t total = 0;
-  for (std::size_t e = 0; e < elements.all.size(); ++e) {
-    s.begin[e] = static_cast<std::uint32_t>(std::min(total, s.most + 1));
-    if (s.parts[e] > 1) total += lattice_points(elements.all[e].is_edge(), s.parts[e]);
-  }
-  s.begin[elements.all.size()] = static_cast<std::uint32_t>(std::min(total, s.most + 1));
+  for (std::size_t& before : s.before_block) total += std::exchange(before, total);
+  engine::parallel_for(context, count, kElementGrain, [&](std::size_t begin, std::size_t end) {
+    std::size_t before = s.before_block[begin / kElementGrain];
+    for (std::size_t e = begin; e < end; ++e) {
+      s.begin[e] = static_cast<std::uint32_t>(std::min(before, s.most + 1));
+      before += samples_of(e);
+    }
+  });
+  s.begin[count] = static_cast<std::uint32_t>(std::min(total, s.most + 1));
   return total;
 }
 
@@ -178,6 +190,7 @@ FaceSamples make_face_samples(const Elements& elements, std::size_t particles, s
   s.most = most;
   s.all.reserve(most);
   s.begin.assign(elements.all.size() + 1, 0);
+  s.before_block.resize(engine::block_count(elements.all.size(), kElementGrain));
   s.parts.assign(elements.all.size(), 0), s.wanted.assign(elements.all.size(), 0);
   return s;
 }

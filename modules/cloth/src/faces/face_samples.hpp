@@ -83,8 +83,9 @@ struct FaceSamples {
   std::vector<std::uint8_t> parts;
   /// #elements: the parts that the curvature at the last frame's samples requires.
   std::vector<std::uint8_t> wanted;
-  std::vector<ParticleRoom> room;  ///< #P
-  std::size_t most = 0;            ///< number of samples that memory is reserved for
+  std::vector<std::size_t> before_block;  ///< number of samples before each block of elements
+  std::vector<ParticleRoom> room;         ///< #P
+  std::size_t most = 0;                   ///< number of samples that memory is reserved for
 
   SampleRange of_run(const Elements& elements, std::size_t run) const {
     return {begin[elements.run_begin[run]], begin[elements.run_begin[run + 1]]};
