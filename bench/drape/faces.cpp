@@ -10,6 +10,7 @@
 #include <bodice/tryon/rigged_body.hpp>
 #include <bodice/tryon/wearing.hpp>
 
+#include <bench_support/median.hpp>
 #include <bench_support/or_exit.hpp>
 #include "causes.hpp"
 #include "conditions.hpp"
@@ -157,24 +158,47 @@ void explain(const engine::Context& context, const Judged& judged, const std::ve
   print_causes(mean, "mean");
 }
 
-Row walk(const engine::Context& context, const FacesOptions& o, const Outfit& outfit, Sheet& sheet) {
+/// A garment on a body that walks.
+struct WalkScene {
+  tryon::PreparedBody body;
+  tryon::BodyMotion motion;
+  tryon::WornGarment garment;
+};
+
+WalkScene load_walk(const engine::Context& context, const FacesOptions& o, const Outfit& outfit) {
   tryon::SegmentedSkin skin = or_exit(tryon::segment_file(context, outfit.body, {}));
   or_exit(tryon::give_rig(context, tryon::BodyFile{outfit.body}, skin));
   std::vector<engine::Warning> warnings;
-  const tryon::BodyMotion motion =
+  tryon::BodyMotion motion =
       or_exit(tryon::find_motion(context, skin, {.motion = "walk", .clip = {}}, warnings));
-  const tryon::PreparedBody body = bound_body(context, std::move(skin), outfit.body.stem().string(), o.cache);
+  tryon::PreparedBody body = bound_body(context, std::move(skin), outfit.body.stem().string(), o.cache);
   io::ImportedMesh mesh = or_exit(io::import_garment(context, outfit.garment, body.skin.input.frame));
   tryon::WornGarment garment{.name = outfit.name, .mesh = std::move(mesh.skin)};
   tighten(*body.skin.distance, o.tighter_m, garment.mesh);
   garment.held = tryon::held_vertices(garment.mesh, body.skin);
+  return {std::move(body), std::move(motion), std::move(garment)};
+}
+
+/// Moves vertices by less than a micrometer, differently for each start.
+void displace(int start, geometry::TriMesh& garment) {
+  constexpr double kStep_m = 1e-7;
+  constexpr std::size_t kDifferent = 7;
+  for (std::size_t i = 0; i < garment.positions.size(); ++i)
+    garment.positions[i].x() += kStep_m * start * static_cast<double>(i % kDifferent);
+}
+
+Row walk(const engine::Context& context, const FacesOptions& o, const WalkScene& scene, int start,
+         Sheet& sheet) {
+  const auto& [body, motion, at_file] = scene;
+  tryon::WornGarment garment = at_file;
+  displace(start, garment.mesh);
   tryon::DrapeOptions settings = o.drape;
   settings.motion = &motion;
   settings.frames = std::max(20, static_cast<int>(motion.clip.duration_s / settings.dt_s));
   settings.kept_frames = settings.frames + 1;
   const tryon::DrapeResult draped = or_exit(tryon::drape(context, body, {garment}, settings));
   const std::vector<Vec3>& end = draped.garments.front().frames.back();
-  sheet.add(draped.body_frames.back(), body.skin.input.skin.triangles, garment, end);
+  if (start == 0) sheet.add(draped.body_frames.back(), body.skin.input.skin.triangles, garment, end);
   const geometry::MeshDistance posed(context, {draped.body_frames.back(), body.skin.input.skin.triangles});
   Row row{.start_cm2 = 1e4 * draped.report.kept.front().inside.shown_m2,
           .end_cm2 = 1e4 * draped.report.kept.back().inside.shown_m2,
@@ -194,6 +218,28 @@ Row walk(const engine::Context& context, const FacesOptions& o, const Outfit& ou
   return row;
 }
 
+/// A number of several walks that differ by their starts.
+void print_spread(const char* what, std::vector<double> values) {
+  std::ranges::sort(values);
+  std::printf("  %s %.1f (%.1f to %.1f)", what, median(values), values.front(), values.back());
+}
+
+void judge_walks(const engine::Context& context, const FacesOptions& o, const Outfit& outfit, Sheet& sheet) {
+  const WalkScene scene = load_walk(context, o, outfit);
+  std::vector<double> inside_cm2, crossings;
+  for (int start = 0; start < o.starts; ++start) {
+    const Row row = walk(context, o, scene, start, sheet);
+    print_row(outfit.name, "walks", row, kWalking_cm2);
+    inside_cm2.push_back(row.worst_cm2);
+    crossings.push_back(static_cast<double>(row.report.crossings_end));
+  }
+  if (o.starts == 1) return;
+  std::printf("%-36s %d starts, median (least to most):", outfit.name.c_str(), o.starts);
+  print_spread("cm2 inside", inside_cm2);
+  print_spread("crossings at the end", crossings);
+  std::printf("\n");
+}
+
 }  // namespace
 
 bool judge_faces(const engine::Context& context, const FacesOptions& options) {
@@ -205,8 +251,7 @@ bool judge_faces(const engine::Context& context, const FacesOptions& options) {
     const Row row = stand(context, options, outfit, sheet);
     print_row(outfit.name, "stand", row, row.start_cm2 > 0.0 ? kInFold_cm2 : kStanding_cm2);
   }
-  for (const Outfit& outfit : outfits)
-    print_row(outfit.name, "walks", walk(context, options, outfit, sheet), kWalking_cm2);
+  for (const Outfit& outfit : outfits) judge_walks(context, options, outfit, sheet);
   return options.sheet.empty() || sheet.write(options.sheet);
 }
 

@@ -19,6 +19,9 @@ struct FacesOptions {
   int standing_frames = 120;
   double tighter_m = 0.0;  ///< garments are first moved so much nearer to the skin, but not into it
   bool walking_only = false;
+  /// The number of walks of each garment, with positions at the start that differ by less than a micrometer.
+  /// Where cloth is crushed, the result of one walk is a matter of rounding.
+  int starts = 1;
   bool causes = false;  ///< whether to name the causes of cloth inside the skin, in the worst frame of a walk
   bodice::tryon::DrapeOptions drape;  ///< frames, kept frames and motion are set for each row
 };

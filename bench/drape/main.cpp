@@ -88,6 +88,7 @@ struct Arguments {
   std::string out;
   bool repeat = false;
   bool faces = false, causes = false, walking_only = false;
+  int starts = 1;
   double certify_mm = 0.0, tighter_mm = 0.0;
   bench::WearOptions wear = {.solver = bodice::tryon::DrapeOptions{}.solver};
 };
@@ -124,6 +125,9 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--tighter-mm", a.tighter_mm, "garments are first moved so much nearer to the skin")
       ->needs(faces);
   app.add_flag("--walking", a.walking_only, "no body that stands")->needs(faces);
+  app.add_option("--starts", a.starts, "walks of each garment, with starts that differ by rounding")
+      ->check(CLI::Range(1, 100))
+      ->needs(faces);
   app.add_option("--certify-mm", a.certify_mm,
                  "depth in the proxy that no point may exceed, proved each frame")
       ->needs(faces);
@@ -180,7 +184,7 @@ bool judge_all_faces(const Arguments& a) {
   const auto executor = bodice::engine::make_tbb_executor(a.workers);
   bench::FacesOptions options{.data = a.data, .only = a.only, .cache = a.cache, .sheet = a.picture};
   options.tighter_m = 1e-3 * a.tighter_mm;
-  options.causes = a.causes, options.walking_only = a.walking_only;
+  options.causes = a.causes, options.walking_only = a.walking_only, options.starts = a.starts;
   options.drape.solver.substeps = a.substeps.front();
   options.drape.solver.iterations = a.wear.solver.iterations;
   options.drape.fabric = bodice::cloth::find_fabric(a.fabric).value();
