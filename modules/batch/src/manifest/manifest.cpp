@@ -70,6 +70,7 @@ struct Manifest::Index {
   std::array<std::uint64_t, 2> share = {};  ///< key that jobs with one shared step have in common
   Entry entry;
   std::uint32_t first = 0;  ///< line of the first job that shares it
+  bool is_job = false;      ///< whether the line can be read
 };
 
 Manifest::Manifest(fs::path file, int descriptor, const Work& work)
@@ -122,50 +123,55 @@ engine::Result<Job> Manifest::parse(std::string_view line, std::size_t number) c
   return job;
 }
 
-engine::Result<void> Manifest::build(const Shard& shard, const engine::CancelToken& cancel) {
+/// What parse() and the work find in a line; `first_error` keeps the error of the first one that is no job.
+Manifest::Index Manifest::index_of(std::string_view line, std::size_t number,
+                                   std::optional<Error>& first_error) const {
+  Index item;
+  item.entry.length = static_cast<std::uint32_t>(line.size());
+  item.entry.line = static_cast<std::uint32_t>(number) & 0x7fffffffu;
+  Sha256 hash;
+  const auto job = parse(line, number);
+  item.is_job = static_cast<bool>(job);
+  // A broken line shares nothing.
+  hash.add(job ? "job" + work_->shared(*job) : "line" + std::to_string(number));
+  if (!job && !first_error) first_error = job.error();
+  const auto bytes = hash.finish();
+  std::memcpy(item.share.data(), bytes.data(), sizeof item.share);
+  return item;
+}
+
+engine::Result<std::vector<Manifest::Index>> Manifest::index_lines(const engine::CancelToken& cancel) {
   std::size_t count = 1;
   bool readable = for_each_line(descriptor_, [&](std::uint64_t, std::string_view) { ++count; });
   if (count > kMostLines) return unreadable(file_, "has more than 2^31 lines", "Split it.");
   std::vector<Index> index;
   index.reserve(count);
-  std::uint32_t number = 0;
-  std::optional<Error> broken, first_that_is_no_job;
-  bool has_jobs = false;
-  readable = readable && for_each_line(descriptor_, [&](std::uint64_t offset, std::string_view text) {
-               ++number;
-               if (cancel.canceled()) return;
-               const std::string_view line = trimmed(text);
-               if (line.empty()) return;
-               if (is_csv_ && columns_.empty()) {
-                 auto names = csv_fields(line);
-                 if (!names) broken = names.error();
-                 columns_ = names ? std::move(names).value() : std::vector<std::string>{""};
-                 return;
-               }
-               Index item;
-               item.entry.offset = offset + static_cast<std::uint64_t>(line.data() - text.data());
-               item.entry.length = static_cast<std::uint32_t>(line.size());
-               item.entry.line = number & 0x7fffffffu;
-               Sha256 hash;
-               if (const auto job = parse(line, number)) {
-                 hash.add("job" + work_->shared(*job));
-                 has_jobs = true;
-               } else {
-                 hash.add("line" + std::to_string(number));  // a broken line shares nothing
-                 if (!first_that_is_no_job) first_that_is_no_job = job.error();
-               }
-               const auto bytes = hash.finish();
-               std::memcpy(item.share.data(), bytes.data(), sizeof item.share);
-               index.push_back(item);
-             });
+  std::size_t number = 0;
+  std::optional<Error> broken, first_error;
+  const auto read = [&](std::uint64_t offset, std::string_view text) {
+    ++number;
+    const std::string_view line = trimmed(text);
+    if (cancel.canceled() || line.empty()) return;
+    if (is_csv_ && columns_.empty()) {
+      auto names = csv_fields(line);
+      if (!names) broken = names.error();
+      columns_ = names ? std::move(names).value() : std::vector<std::string>{""};
+      return;
+    }
+    index.push_back(index_of(line, number, first_error));
+    index.back().entry.offset = offset + static_cast<std::uint64_t>(line.data() - text.data());
+  };
+  readable = readable && for_each_line(descriptor_, read);
   if (!readable) return unreadable(file_, "cannot be read", "Check the disk.");
   if (broken) return unreadable(file_, "has a broken first line", "Name the columns there.");
   if (cancel.canceled()) return Error{ErrorCode::kCanceled, "The batch was canceled.", ""};
-  if (!has_jobs && first_that_is_no_job)
-    return Error{ErrorCode::kUnreadable, "There is no job in the manifest. " + first_that_is_no_job->message,
-                 first_that_is_no_job->remedy};
-  lines_ = index.size();
+  if (first_error && std::ranges::none_of(index, &Index::is_job))
+    return Error{ErrorCode::kUnreadable, "There is no job in the manifest. " + first_error->message,
+                 first_error->remedy};
+  return index;
+}
 
+void Manifest::order_by_share(std::vector<Index>& index) {
   std::ranges::sort(index, {},
                     [](const Index& i) { return std::pair(i.share, std::uint32_t{i.entry.line}); });
   for (std::size_t i = 0; i < index.size(); ++i) {
@@ -174,6 +180,14 @@ engine::Result<void> Manifest::build(const Shard& shard, const engine::CancelTok
   }
   std::ranges::sort(index, {},
                     [](const Index& i) { return std::pair(i.first, std::uint32_t{i.entry.line}); });
+}
+
+engine::Result<void> Manifest::build(const Shard& shard, const engine::CancelToken& cancel) {
+  auto indexed = index_lines(cancel);
+  if (!indexed) return std::move(indexed).error();
+  std::vector<Index>& index = *indexed;
+  order_by_share(index);
+  lines_ = index.size();
   const std::size_t begin = lines_ * shard.index / shard.count,
                     end = lines_ * (shard.index + 1) / shard.count;
   entries_.reserve(end - begin);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +53,11 @@ class Manifest {
   struct Index;
   Manifest(std::filesystem::path file, int descriptor, const Work& work);
   engine::Result<void> build(const Shard& shard, const engine::CancelToken& cancel);
+  Index index_of(std::string_view line, std::size_t number, std::optional<engine::Error>& first_error) const;
+  /// The lines that are not empty, in the order of the file.
+  engine::Result<std::vector<Index>> index_lines(const engine::CancelToken& cancel);
+  /// Sorts lines so that jobs that share a step stand beside each other, in the order of the first of them.
+  static void order_by_share(std::vector<Index>& index);
   engine::Result<Job> parse(std::string_view line, std::size_t number) const;
   engine::Result<Job> read_line(std::uint64_t offset, const Entry& entry) const;
 

@@ -99,75 +99,84 @@ void add_motion_options(CLI::App& sub, DrapeCommand& c) {
       ->capture_default_str();
 }
 
-}  // namespace
-
-void add_drape_options(CLI::App& sub, DrapeCommand& command) {
-  add_common_options(sub, command.common);
-  auto* garments =
-      sub.add_option("GARMENT", command.garments,
-                     "garment meshes in the body's coordinates and unit (default: one made to fit)");
+void add_garment_options(CLI::App& sub, DrapeCommand& c) {
+  const auto group = "Garment";
+  auto* garments = sub.add_option(
+      "GARMENT", c.garments, "garment meshes in the body's coordinates and unit (default: one made to fit)");
   garments->check(not_empty());
-  sub.add_option("--garment", command.made, "without GARMENT, make this: skirt, tunic, poncho, tube")
+  sub.add_option("--garment", c.made, "without GARMENT, make this: skirt, tunic, poncho, tube")
       ->check(CLI::IsMember({"skirt", "tunic", "poncho", "tube"}))
       ->excludes(garments)
-      ->group("Garment")
+      ->group(group)
       ->capture_default_str();
-  sub.add_option("--hold", command.hold, "auto: waistbands stay with the body; none: everything is free")
+  sub.add_option("--hold", c.hold, "auto: waistbands stay with the body; none: everything is free")
       ->check(CLI::IsMember({"auto", "none"}))
-      ->group("Garment")
+      ->group(group)
       ->capture_default_str();
   sub.add_option(
-         "--position", command.position,
+         "--position", c.position,
          "auto: garments in another unit, with another axis up or beside the body are put on it, with a "
          "warning; as-is: they stay where their files have them")
       ->check(CLI::IsMember({"auto", "as-is"}))
       ->needs(garments)
-      ->group("Garment")
+      ->group(group)
       ->capture_default_str();
-  sub.add_option("--tack-mm", command.tack,
+  sub.add_option("--tack-mm", c.tack,
                  "pieces of a garment this near to each other stay together: auto (6), off or millimeters")
       ->check(CLI::IsMember({"auto", "off"}) | between(0.0, 100.0))
-      ->group("Garment")
+      ->group(group)
       ->capture_default_str();
   sub.add_option(
-         "--order", command.drape.order,
+         "--order", c.drape.order,
          "names of garment files without their endings, from the body outward, separated by commas: each "
          "is laid over those before it (shirt,trousers tucks the shirt in)")
       ->delimiter(',')
       ->needs(garments)
-      ->group("Garment");
+      ->group(group);
   sub.add_option(
-         "--prop", command.props,
+         "--prop", c.props,
          "a thing that stands still beside the body, such as its chair: a mesh in the body's coordinates "
          "and unit, which the cloth meets; may be given several times")
       ->check(not_empty())
       ->allow_extra_args(false)
-      ->group("Garment");
-  add_motion_options(sub, command);
-  sub.add_option("-o,--output", command.output, "body, ellipsoids and moving cloth, .glb for any glTF viewer")
+      ->group(group);
+}
+
+void add_output_options(CLI::App& sub, DrapeCommand& c) {
+  const auto group = "Output";
+  sub.add_option("-o,--output", c.output, "body, ellipsoids and moving cloth, .glb for any glTF viewer")
       ->check(not_empty())
-      ->group("Output")
+      ->group(group)
       ->capture_default_str();
-  sub.add_option("--contact-sheet", command.contact_sheet, "write a PNG with a view of every kept frame")
+  sub.add_option("--contact-sheet", c.contact_sheet, "write a PNG with a view of every kept frame")
       ->check(not_empty())
-      ->group("Output");
-  sub.add_option("--film-strip", command.film_strip,
+      ->group(group);
+  sub.add_option("--film-strip", c.film_strip,
                  "write a PNG with eight moments of the motion in one row, from the front or the left")
       ->check(not_empty())
-      ->group("Output");
-  sub.add_option("--cache", command.cache,
+      ->group(group);
+  sub.add_option("--cache", c.cache,
                  "positions of the cloth at the kept frames as a point cache for Blender, Maya and others "
                  "(.pc2 or .mdd), in the input's unit and axes; a second garment goes to NAME_2")
       ->check(not_empty())
-      ->group("Output");
-  sub.add_option("--fit-map", command.fit_map,
+      ->group(group);
+  sub.add_option("--fit-map", c.fit_map,
                  "color the garments by fit at the end, red tight, blue loose: ease, the gap to the skin, or "
                  "strain")
       ->check(CLI::IsMember({"ease", "strain"}))
-      ->group("Output");
-  sub.add_flag("--no-picture", command.no_picture, "write no PNG beside the output")
+      ->group(group);
+  sub.add_flag("--no-picture", c.no_picture, "write no PNG beside the output")
       ->excludes("--picture")
-      ->group("Output");
+      ->group(group);
+}
+
+}  // namespace
+
+void add_drape_options(CLI::App& sub, DrapeCommand& command) {
+  add_common_options(sub, command.common);
+  add_garment_options(sub, command);
+  add_motion_options(sub, command);
+  add_output_options(sub, command);
 }
 
 void add_drape_command(CLI::App& app, int& exit_code, const std::vector<std::string>& command_line) {

@@ -216,58 +216,67 @@ void add_shape_option(CLI::App& sub, FitCommand& c) {
       ->capture_default_str();
 }
 
+void add_output_options(CLI::App& sub, FitCommand& c) {
+  const auto group = "Output";
+  sub.add_option("-o,--output", c.output, "the proxy: .json, or .bodice for the compact binary")
+      ->check(not_empty())
+      ->group(group);
+  sub.add_option(
+         "--glb", c.common.glb,
+         "body by part and ellipsoids, those of relief without their tables, for any glTF viewer; meshes "
+         "are in the body's own units and axes, and a root node turns them to meters, y up")
+      ->check(not_empty())
+      ->group(group);
+  sub.add_option("--surface", c.surface,
+                 "the proxy's surface as triangles (OBJ), for tools that collide with meshes")
+      ->check(not_empty())
+      ->group(group);
+  sub.add_option("--surface-mm", c.surface_mm,
+                 "length of that surface's cells: half gives four times the triangles (default: a "
+                 "three-hundredth of the stature)")
+      ->check(above_zero())
+      ->needs("--surface")
+      ->group(group);
+  sub.add_option("--heat-map", c.heat_map, "the skin from two sides, colored by the proxy's error (PNG)")
+      ->check(not_empty())
+      ->group(group);
+  sub.add_flag("--no-rig", c.no_rig,
+               "leave the rig of the file alone: by default the proxy is bound to it, and follows its joints")
+      ->group(group);
+}
+
+/// Files for garments that are made to measure.
+void add_tailor_options(CLI::App& sub, FitCommand& c) {
+  const auto group = "Output";
+  sub.add_option(
+         "--measurements", c.measurements,
+         "26 body measurements for garments, for a body that stands with its arms away from the trunk "
+         "(.json or .yaml)")
+      ->check(not_empty())
+      ->group(group);
+  const std::map<std::string, tryon::TailorUnit> units = {{"mm", tryon::TailorUnit::kMillimeter},
+                                                          {"cm", tryon::TailorUnit::kCentimeter}};
+  sub.add_option("--measurements-unit", c.tailor_unit,
+                 "mm, or cm as the body files of GarmentCode (default: mm)")
+      ->transform(CLI::CheckedTransformer(units))
+      ->needs("--measurements")
+      ->group(group);
+  sub.add_option(
+         "--segmentation", c.segmentation,
+         "the vertices of an OBJ body in six regions (arms, legs, body, what is inside), as GarmentCode "
+         "reads them (.json)")
+      ->check(not_empty())
+      ->group(group);
+}
+
 }  // namespace
 
 void add_fit_command(CLI::App& app, int& exit_code, const std::vector<std::string>& command_line) {
   auto command = std::make_shared<FitCommand>();
   command->common.command_line = command_line;
   CLI::App* sub = app.add_subcommand("fit", "Fit a body proxy of ellipsoids to a body mesh");
-  sub->add_option("-o,--output", command->output, "the proxy: .json, or .bodice for the compact binary")
-      ->check(not_empty())
-      ->group("Output");
-  sub->add_option(
-         "--glb", command->common.glb,
-         "body by part and ellipsoids, those of relief without their tables, for any glTF viewer; meshes "
-         "are in the body's own units and axes, and a root node turns them to meters, y up")
-      ->check(not_empty())
-      ->group("Output");
-  sub->add_option("--surface", command->surface,
-                  "the proxy's surface as triangles (OBJ), for tools that collide with meshes")
-      ->check(not_empty())
-      ->group("Output");
-  sub->add_option("--surface-mm", command->surface_mm,
-                  "length of that surface's cells: half gives four times the triangles (default: a "
-                  "three-hundredth of the stature)")
-      ->check(above_zero())
-      ->needs("--surface")
-      ->group("Output");
-  sub->add_option(
-         "--measurements", command->measurements,
-         "26 body measurements for garments, for a body that stands with its arms away from the trunk "
-         "(.json or .yaml)")
-      ->check(not_empty())
-      ->group("Output");
-  const std::map<std::string, tryon::TailorUnit> units = {{"mm", tryon::TailorUnit::kMillimeter},
-                                                          {"cm", tryon::TailorUnit::kCentimeter}};
-  sub->add_option("--measurements-unit", command->tailor_unit,
-                  "mm, or cm as the body files of GarmentCode (default: mm)")
-      ->transform(CLI::CheckedTransformer(units))
-      ->needs("--measurements")
-      ->group("Output");
-  sub->add_option(
-         "--segmentation", command->segmentation,
-         "the vertices of an OBJ body in six regions (arms, legs, body, what is inside), as GarmentCode "
-         "reads them (.json)")
-      ->check(not_empty())
-      ->group("Output");
-  sub->add_option("--heat-map", command->heat_map,
-                  "the skin from two sides, colored by the proxy's error (PNG)")
-      ->check(not_empty())
-      ->group("Output");
-  sub->add_flag(
-         "--no-rig", command->no_rig,
-         "leave the rig of the file alone: by default the proxy is bound to it, and follows its joints")
-      ->group("Output");
+  add_output_options(*sub, *command);
+  add_tailor_options(*sub, *command);
   add_pose_options(*sub, *command);
   add_common_options(*sub, command->common);
   add_shape_option(*sub, *command);

@@ -73,6 +73,20 @@ engine::Result<cloth::SolverOptions> solver_options(const engine::Context& conte
   return solver;
 }
 
+/// Measures the cloth where it is at the end, against the body and against the proxy that it met.
+void measure_end(const engine::Context& context, std::span<const Vec3> positions, const DrapeOptions& options,
+                 const proxy::BodyProxy& proxy, Scene& scene, DrapeReport& report) {
+  MovingBody& moving = scene.contact_body;
+  const std::vector<geometry::Triangle>& triangles = scene.all.mesh.triangles;
+  report.pierced_share = pierced_share(context, moving.distance(context), positions, triangles);
+  add_cloth(context, positions, triangles, options.props, report.props);
+  report.inside_union = moving.moves() ? count_inside(context, proxy, moving.poser()->posed(), positions)
+                                       : count_inside(context, proxy, positions);
+  report.hash = scene.solver.hash();
+  const auto& warnings = scene.solver.warnings();
+  report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
+}
+
 engine::Result<DrapeResult> simulate(const engine::Context& context, const PreparedBody& body,
                                      const std::vector<WornGarment>& garments, const DrapeOptions& options,
                                      const Progress& progress) {
@@ -118,14 +132,7 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
       *all, garments, drape.positions(),
       {moving.skin(context), body.skin.anatomy.part, moving.distance(context)}, report.warnings);
   timer.reset();
-  report.pierced_share =
-      pierced_share(context, moving.distance(context), drape.positions(), all->mesh.triangles);
-  add_cloth(context, drape.positions(), all->mesh.triangles, options.props, report.props);
-  report.inside_union = moving.moves()
-                            ? count_inside(context, proxy, moving.poser()->posed(), drape.positions())
-                            : count_inside(context, proxy, drape.positions());
-  report.hash = solver->hash();
-  report.warnings.insert(report.warnings.end(), solver->warnings().begin(), solver->warnings().end());
+  measure_end(context, drape.positions(), options, proxy, *scene, report);
   result.garments = recorder.take();
   result.bases = *bases;
   if (options.fit_map) {
