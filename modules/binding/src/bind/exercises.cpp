@@ -151,10 +151,11 @@ void raise_burial(const engine::Context& context, const proxy::BodyProxy& proxy,
   if (burial.step_m <= 0.0f) return;
   const proxy::ReliefReach reach = proxy::relief_reach(proxy.stature_m());
   const double farthest_m = kFarthest_m * proxy.stature_m() / kReferenceStature_m;
+  const geometry::MeshDistance at_rest(context, body.skin);
   geometry::TriMesh skin = body.skin;
   for (const std::vector<rig::Affine>& skinning : exercises) {
     rig::skin_linear(context, body.skin.positions, body.weights, skinning, skin.positions);
-    const geometry::MeshDistance distance(context, skin);
+    const geometry::MeshDistance distance(context, at_rest, skin);
     const Exercise exercise{proxy, binding, skinning, distance, farthest_m};
     engine::parallel_for(context, proxy.relief().size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {

@@ -265,21 +265,60 @@ void set_frame(Bvh& bvh, const TriMesh& mesh) {
   bvh.scale = half > 0.0 ? std::exp2(std::ceil(std::log2(half))) : 1.0;
 }
 
+BvhTriangle local_triangle(const Bvh& bvh, const TriMesh& mesh, Index t) {
+  const Vec3 a = bvh.to_local(mesh.corner(t, 0));
+  return {a, bvh.to_local(mesh.corner(t, 1)) - a, bvh.to_local(mesh.corner(t, 2)) - a};
+}
+
+/// Sets the leaves from the triangles.
+void set_leaves(const engine::Context& context, Bvh& bvh) {
+  engine::parallel_for(context, bvh.leaves.size(), kLeafGrain, [&](std::size_t begin, std::size_t end) {
+    for (LeafTriangles& leaf : std::span(bvh.leaves).subspan(begin, end - begin))
+      for (std::uint32_t k = 0; k < leaf.count; ++k)
+        leaf.set(static_cast<int>(k), bvh.triangles[leaf.first + k]);
+  });
+}
+
+/// The triangles of the mesh that a tree takes.
+std::vector<Index> usable_triangles(const TriMesh& mesh) {
+  std::vector<Index> usable;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (has_corners(mesh, t)) usable.push_back(static_cast<Index>(t));
+  return usable;
+}
+
+FloatBox box_of_leaf(const Bvh& bvh, const LeafTriangles& leaf) {
+  FloatBox box;
+  for (std::uint32_t k = 0; k < leaf.count; ++k)
+    box.extend(make_primitive(bvh.triangles[leaf.first + k]).box);
+  return box;
+}
+
+/// Fits the boxes of all nodes to the triangles, children before parents.
+void refit_nodes(Bvh& bvh) {
+  std::vector<FloatBox> of_node(bvh.nodes.size());
+  for (std::size_t n = bvh.nodes.size(); n-- > 0;) {
+    BvhNode& node = bvh.nodes[n];
+    for (int slot = 0; slot < BvhNode::kWidth; ++slot) {
+      const std::uint32_t child = node.child[slot];
+      if (child == BvhChild::kNone) continue;
+      const FloatBox box = BvhChild::is_leaf(child) ? box_of_leaf(bvh, bvh.leaf(child)) : of_node[child];
+      for (int k = 0; k < 3; ++k) node.low[k][slot] = box.low[k], node.high[k][slot] = box.high[k];
+      of_node[n].extend(box);
+    }
+  }
+}
+
 }  // namespace
 
 Bvh build_bvh(const engine::Context& context, const TriMesh& mesh) {
   Bvh bvh;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (has_corners(mesh, t)) bvh.triangle_of_leaf.push_back(static_cast<Index>(t));
+  bvh.triangle_of_leaf = usable_triangles(mesh);
   if (bvh.triangle_of_leaf.empty()) return bvh;
   set_frame(bvh, mesh);
   const std::size_t count = bvh.triangle_of_leaf.size();
   std::vector<BvhTriangle> unordered(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Index t = bvh.triangle_of_leaf[i];
-    const Vec3 a = bvh.to_local(mesh.corner(t, 0));
-    unordered[i] = {a, bvh.to_local(mesh.corner(t, 1)) - a, bvh.to_local(mesh.corner(t, 2)) - a};
-  }
+  for (std::size_t i = 0; i < count; ++i) unordered[i] = local_triangle(bvh, mesh, bvh.triangle_of_leaf[i]);
   Builder builder(unordered);
   builder.build(context, bvh.nodes, bvh.leaves);
   const std::vector<Index> source = bvh.triangle_of_leaf;
@@ -288,11 +327,24 @@ Bvh build_bvh(const engine::Context& context, const TriMesh& mesh) {
     bvh.triangles[i] = unordered[builder.order()[i]];
     bvh.triangle_of_leaf[i] = source[builder.order()[i]];
   }
-  engine::parallel_for(context, bvh.leaves.size(), kLeafGrain, [&](std::size_t begin, std::size_t end) {
-    for (LeafTriangles& leaf : std::span(bvh.leaves).subspan(begin, end - begin))
-      for (std::uint32_t k = 0; k < leaf.count; ++k)
-        leaf.set(static_cast<int>(k), bvh.triangles[leaf.first + k]);
+  set_leaves(context, bvh);
+  return bvh;
+}
+
+Bvh refit_bvh(const engine::Context& context, const Bvh& like, const TriMesh& mesh) {
+  const auto is_usable = [&](Index t) { return t < mesh.triangles.size() && has_corners(mesh, t); };
+  if (like.triangle_of_leaf.size() != usable_triangles(mesh).size() ||
+      !std::ranges::all_of(like.triangle_of_leaf, is_usable))
+    return build_bvh(context, mesh);
+  Bvh bvh = like;
+  if (bvh.triangles.empty()) return bvh;
+  set_frame(bvh, mesh);
+  engine::parallel_for(context, bvh.triangles.size(), kLeafGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      bvh.triangles[i] = local_triangle(bvh, mesh, bvh.triangle_of_leaf[i]);
   });
+  set_leaves(context, bvh);
+  refit_nodes(bvh);
   return bvh;
 }
 

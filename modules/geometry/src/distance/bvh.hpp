@@ -52,4 +52,8 @@ struct Bvh {
 /// triangles.
 Bvh build_bvh(const engine::Context& context, const TriMesh& mesh);
 
+/// The tree `like`, fitted to other positions of the vertices of its mesh; O(n). Where these leave out other
+/// triangles than it does, a tree is built.
+Bvh refit_bvh(const engine::Context& context, const Bvh& like, const TriMesh& mesh);
+
 }  // namespace bodice::geometry

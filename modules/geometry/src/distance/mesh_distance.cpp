@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include <bodice/engine/random.hpp>
 
@@ -46,8 +47,8 @@ struct MeshDistance::Impl {
   std::vector<DipoleNode> dipoles;
   bool is_closed;
 
-  Impl(const engine::Context& context, const TriMesh& mesh)
-      : bvh(build_bvh(context, mesh)),
+  Impl(const TriMesh& mesh, Bvh tree)
+      : bvh(std::move(tree)),
         dipoles(build_dipoles(bvh)),
         is_closed(is_without_border(mesh, bvh.triangle_of_leaf)) {}
 
@@ -83,7 +84,9 @@ struct MeshDistance::Impl {
 };
 
 MeshDistance::MeshDistance(const engine::Context& context, const TriMesh& mesh)
-    : impl_(std::make_unique<Impl>(context, mesh)) {}
+    : impl_(std::make_unique<Impl>(mesh, build_bvh(context, mesh))) {}
+MeshDistance::MeshDistance(const engine::Context& context, const MeshDistance& like, const TriMesh& mesh)
+    : impl_(std::make_unique<Impl>(mesh, refit_bvh(context, like.impl_->bvh, mesh))) {}
 MeshDistance::~MeshDistance() = default;
 MeshDistance::MeshDistance(MeshDistance&&) noexcept = default;
 MeshDistance& MeshDistance::operator=(MeshDistance&&) noexcept = default;

@@ -47,7 +47,7 @@ engine::Result<std::shared_ptr<const proxy::BasePose>> make_base_pose(const engi
   rig::skinning_matrices(skin.rig->skeleton, world, skinning);
   geometry::TriMesh posed = skin.input.skin;
   rig::skin_linear(context, skin.input.skin.positions, skin.rig->weights, skinning, posed.positions);
-  const geometry::MeshDistance distance(context, posed);
+  const geometry::MeshDistance distance(context, *skin.distance, posed);
   const fitting::LabeledSkin labeled{posed, skin.anatomy.part, bound.stature_m() * warp->scale(),
                                      bound.frame(), &distance};
   auto tables =

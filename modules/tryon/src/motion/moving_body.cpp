@@ -111,7 +111,7 @@ void MovingBody::show_shape(const engine::Context& context) {
 
 const geometry::MeshDistance& MovingBody::distance(const engine::Context& context) {
   if (!moves()) return *skin_->distance;
-  if (!distance_) distance_.emplace(context, skin(context));
+  if (!distance_) distance_.emplace(context, *skin_->distance, skin(context));
   return *distance_;
 }
 

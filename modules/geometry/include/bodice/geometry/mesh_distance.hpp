@@ -26,6 +26,10 @@ class MeshDistance {
   /// Builds the tree in O(n log n). For an empty mesh every distance is +infinity. Triangles with a vertex
   /// that is not there or not finite are left out. Throws engine::Canceled if the context is canceled.
   MeshDistance(const engine::Context& context, const TriMesh& mesh);
+  /// Fits the tree of `like` to the same triangles with other positions, such as a skin in another pose;
+  /// O(n). Distances are those of a tree that is built for them. Queries take longer where triangles that
+  /// were near each other are far apart.
+  MeshDistance(const engine::Context& context, const MeshDistance& like, const TriMesh& mesh);
   ~MeshDistance();
   MeshDistance(MeshDistance&&) noexcept;
   MeshDistance& operator=(MeshDistance&&) noexcept;
