@@ -104,6 +104,39 @@ TEST_CASE("a cover reaches the skin where it is outside, and changes nothing els
   CHECK(nearer > 0);
 }
 
+TEST_CASE("a cover counts the points in any of many boxes") {
+  const auto proxy = scene();
+  const Skin skin = swollen_skin(Collider(proxy));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  // Slices of the swelling with gaps between them, beside boxes that have no point.
+  std::vector<geometry::Box> boxes(20);
+  boxes.push_back({Vec3::Constant(nan), Vec3::Constant(nan)});
+  constexpr int kSlices = 50;
+  constexpr double kThick_m = 2.0 * kSwollenRadius_m / kSlices;
+  const Vec3 low = skin.swollen - Vec3::Constant(kSwollenRadius_m);
+  for (int k = 0; k < kSlices; k += 2)
+    boxes.push_back({low + Vec3(k * kThick_m, 0.0, 0.0),
+                     low + Vec3((k + 1) * kThick_m, 2.0 * kSwollenRadius_m, 2.0 * kSwollenRadius_m)});
+  std::vector<Vec3> inside;
+  for (const Vec3& p : skin.points)
+    if (std::ranges::any_of(boxes, [&](const geometry::Box& box) {
+          return (p.array() >= box.low.array()).all() && (p.array() <= box.high.array()).all();
+        }))
+      inside.push_back(p);
+  Collider expected(proxy);
+  const CoverReport wanted = expected.cover({}, inside, {.tolerance_m = kTolerance_m});
+  REQUIRE(wanted.uncovered > 20);
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    std::ranges::reverse(boxes);
+    Collider collider(proxy);
+    const CoverReport report =
+        collider.cover({}, skin.points, {.tolerance_m = kTolerance_m, .within = std::span(boxes)});
+    CHECK(report.uncovered == wanted.uncovered);
+    CHECK(report.farthest_m == wanted.farthest_m);
+    CHECK(report.left == wanted.left);
+  }
+}
+
 TEST_CASE("a cover leaves every bit where the skin is inside, or is no skin of this surface" *
           doctest::test_suite("long")) {
   const auto proxy = scene();

@@ -149,11 +149,14 @@ TEST_CASE("in every loop of a frame a thread begins with the same half of the in
   for (int loop = 0; loop < 50; ++loop) {
     std::array<std::thread::id, 8> ran;
     std::array<std::atomic<bool>, 2> begun{false, false};
+    std::atomic<int> started{0};
     pipeline.frame([&](const Context& context) {
       parallel_for(context, ran.size(), 1, [&](std::size_t i, std::size_t) {
+        const int order = started++;
         ran[i] = std::this_thread::get_id();
         // Both threads wait for the first index of the other one, so that neither can take it.
         if (i % 4 != 0) return;
+        CHECK(order < 2);
         begun[i / 4] = true;
         CHECK(eventually([&] { return begun[1 - i / 4].load(); }));
       });

@@ -30,14 +30,15 @@ bool is_within(const Vec3& point, const geometry::Box& box) {
 /// The boxes of Collider::cover() in groups of consecutive ones, so that most points need few tests.
 class BoxGroups {
  public:
-  BoxGroups(std::span<const geometry::Box> boxes, std::vector<geometry::Box>& bounds)
-      : boxes_(boxes), bounds_(bounds) {
+  /// Keeps the bounds of the groups in `bounds`, which must outlive this.
+  BoxGroups(std::span<const geometry::Box> boxes, std::vector<geometry::Box>& bounds) : boxes_(boxes) {
     bounds.assign(engine::block_count(boxes.size(), kBoxesAGroup), {});
     for (std::size_t k = 0; k < boxes.size(); ++k) {
       if (!(boxes[k].low.array() <= boxes[k].high.array()).all()) continue;  // it has no point
       bounds[k / kBoxesAGroup].extend(boxes[k].low);
       bounds[k / kBoxesAGroup].extend(boxes[k].high);
     }
+    bounds_ = bounds;
   }
 
   /// Whether a box has the point; `last` is the box that had the point before. Neighbors in an array of
