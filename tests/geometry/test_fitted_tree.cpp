@@ -55,3 +55,18 @@ TEST_CASE("a tree is built where other triangles have finite vertices than in th
   check({}, whole), check(whole, {}), check(joined(whole, icosphere(0.4, 1)), whole);
   check(lacking, lacking);
 }
+
+TEST_CASE("a tree is fitted to triangles that become slivers, and to slivers that become wide") {
+  const TriMesh wide = icosphere(1.0, 3);
+  TriMesh narrow = wide;
+  for (std::size_t t = 0; t < wide.triangles.size(); t += 9)
+    narrow.positions[wide.triangles[t][0]] = wide.corner(t, 1);
+  const auto check = [&](const TriMesh& like, const TriMesh& mesh) {
+    const MeshDistance fitted(Context{}, MeshDistance(Context{}, like), mesh), built(Context{}, mesh);
+    for (const Vec3& query : queries_around(wide, 400, 41)) {
+      REQUIRE(fitted.signed_distance(query) == built.signed_distance(query));
+      REQUIRE(fitted.inside(query) == built.inside(query));
+    }
+  };
+  check(wide, narrow), check(narrow, wide);
+}

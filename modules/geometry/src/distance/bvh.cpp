@@ -34,12 +34,15 @@ BvhTriangle local_triangle(const Bvh& bvh, const TriMesh& mesh, Index t) {
   return {a, bvh.to_local(mesh.corner(t, 1)) - a, bvh.to_local(mesh.corner(t, 2)) - a};
 }
 
-/// Sets the leaves from the triangles.
+/// Sets the leaves from the triangles. A lane of a sliver keeps what it has, so that leaves are emptied
+/// first.
 void set_leaves(const engine::Context& context, Bvh& bvh) {
   engine::parallel_for(context, bvh.leaves.size(), kLeafGrain, [&](std::size_t begin, std::size_t end) {
-    for (LeafTriangles& leaf : std::span(bvh.leaves).subspan(begin, end - begin))
+    for (LeafTriangles& leaf : std::span(bvh.leaves).subspan(begin, end - begin)) {
+      leaf = {.first = leaf.first, .count = leaf.count};
       for (std::uint32_t k = 0; k < leaf.count; ++k)
         leaf.set(static_cast<int>(k), bvh.triangles[leaf.first + k]);
+    }
   });
 }
 
