@@ -20,8 +20,8 @@ proxy::JointMatrix affine_map(std::span<const proxy::CarryTerm> terms,
                               std::span<const proxy::JointMatrix> skinning);
 
 /// The map, but not folded: where joints fold the skin over an ellipsoid, its map becomes flat and then
-/// mirrors, within a few frames. The skin does neither. The image of `center` stays. `body_scale` is the size
-/// of the body over its size at rest.
+/// mirrors, within a few frames. The skin does neither. The image of `center` stays. `body_scale` is the
+/// body's size divided by its size at rest.
 proxy::JointMatrix unfolded(const proxy::JointMatrix& map, const geometry::Vec3& center, double body_scale);
 
 /// The image: A R diag(r) = U S V^T gives axes U and radii S.

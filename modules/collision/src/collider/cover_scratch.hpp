@@ -21,8 +21,8 @@ struct CoverScratch {
   /// Makes room for so many points and for proxies with so many ellipsoids and texels.
   void reserve(std::size_t points, std::size_t ellipsoids, std::size_t texels);
 
-  std::vector<geometry::Box> bounds;      ///< of groups of the caller's boxes
-  std::vector<std::uint8_t> is_listed;    ///< #points of the caller: whether it belongs to the first round
+  std::vector<geometry::Box> bounds;      ///< boxes around groups of CoverOptions::within
+  std::vector<std::uint8_t> is_listed;    ///< #skin points: whether the first round has the point
   std::vector<std::uint32_t> point;       ///< the points of a round: indices in the caller's array
   std::vector<float> x, y, z;             ///< positions of the round's points, meters, local frame
   std::vector<Contact> contacts;          ///< contacts of the round's points

@@ -218,7 +218,7 @@ class Builder {
 
   std::vector<Primitive> primitives_;
   std::vector<std::uint32_t> order_;
-  std::vector<std::uint8_t> leaf_size_;  // of the leaf that begins there
+  std::vector<std::uint8_t> leaf_size_;  // #triangles: the size of the leaf that begins at each, or 0
 };
 
 }  // namespace
