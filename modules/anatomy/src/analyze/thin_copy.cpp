@@ -9,6 +9,7 @@
 #include <bodice/geometry/mesh_edges.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 
+#include "analyze/tips_of_skin.hpp"
 #include "analyze/upright_height.hpp"
 #include "landmarks/stature.hpp"
 #include "walls/known_walls.hpp"
@@ -105,8 +106,8 @@ struct Tip {
   LandmarkId tip, joint;
   body::Part part;
 };
-constexpr std::array<Tip, 5> kTips = {{{LandmarkId::kCrown, LandmarkId::kNeck, body::Part::kHead},
-                                       {LandmarkId::kFingertipL, LandmarkId::kWristL, body::Part::kForearmL},
+constexpr Tip kTopOfHead = {LandmarkId::kCrown, LandmarkId::kNeck, body::Part::kHead};
+constexpr std::array<Tip, 4> kTipsOfLimbs = {{{LandmarkId::kFingertipL, LandmarkId::kWristL, body::Part::kForearmL},
                                        {LandmarkId::kFingertipR, LandmarkId::kWristR, body::Part::kForearmR},
                                        {LandmarkId::kToeL, LandmarkId::kAnkleL, body::Part::kCalfL},
                                        {LandmarkId::kToeR, LandmarkId::kAnkleR, body::Part::kCalfR}}};
@@ -183,11 +184,17 @@ Anatomy carry_out(const engine::Context& context, const ThinCopy& thin, const An
   const auto mark = [&](LandmarkId id) -> body::Landmark& {
     return out.landmarks[static_cast<std::size_t>(id)];
   };
-  for (const Tip& tip : kTips) {
+  const auto move_to_end = [&](const Tip& tip) {
     const Index end = end_of(skin, out.part, tip.part, mark(tip.joint).position,
                              found.landmarks[static_cast<std::size_t>(tip.tip)].position);
     if (end != kNoIndex) mark(tip.tip).position = skin.positions[end];
-  }
+  };
+  std::ranges::for_each(kTipsOfLimbs, move_to_end);
+  // The end of a head may be hair that stands off it, before which the copy has its crown.
+  if (std::ranges::any_of(found.warnings, is_of_crown))
+    mark(LandmarkId::kCrown).position = surface.closest_point(mark(LandmarkId::kCrown).position).point;
+  else
+    move_to_end(kTopOfHead);
   for (const LandmarkId id : {LandmarkId::kArmpitL, LandmarkId::kArmpitR, LandmarkId::kPerineum})
     mark(id).position -= thin.depth * out.up;
   for (body::Landmark& landmark : out.landmarks) {

@@ -13,10 +13,6 @@ using body::LandmarkId;
 /// if they are nearer than the second: a hand without its fingers is shorter by 0.05.
 constexpr double kSameCrown = 0.02, kSameHand = 0.06;
 
-bool is_of_crown(const engine::Warning& w) {
-  return w.code == "crown-disagrees";
-}
-
 void drop_crown_doubts(const Anatomy& as_is, Anatomy& apart) {
   constexpr auto kCrown = static_cast<std::size_t>(LandmarkId::kCrown);
   body::Landmark& crown = apart.landmarks[kCrown];
@@ -39,6 +35,10 @@ void take_fingertips(const Anatomy& as_is, Anatomy& apart) {
 }
 
 }  // namespace
+
+bool is_of_crown(const engine::Warning& warning) {
+  return warning.code == "crown-disagrees";
+}
 
 void take_tips(const Anatomy& as_is, Anatomy& apart) {
   drop_crown_doubts(as_is, apart);

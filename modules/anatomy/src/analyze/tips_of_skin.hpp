@@ -5,6 +5,9 @@
 
 namespace bodice::inline v0_1::anatomy {
 
+/// Whether a warning is a doubt about the crown.
+bool is_of_crown(const engine::Warning& warning);
+
 /// Removes the warnings about the crown from `apart`, the result on a thin copy, if the skin itself has the
 /// same crown without a warning. A thin copy has no ears, by which the length of a head is tested. Takes the
 /// positions of the skin's fingertips where they are near and no limbs meet on it: a thin copy may have lost

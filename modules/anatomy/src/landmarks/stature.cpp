@@ -1,10 +1,13 @@
 #include "landmarks/stature.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include <coefficients/stature.hpp>
+
+#include "landmarks/base/head_profile.hpp"
 
 namespace bodice::inline v0_1::anatomy {
 namespace {
@@ -44,6 +47,18 @@ std::optional<double> height_of(const Stance& stance, const std::vector<Vec3>& p
   return -lowest;
 }
 
+/// The top of the head: the tip, or what is highest before hair that stands off and has the tip.
+Vec3 top_of_head(const Skin& skin, const BodyCoordinates& coordinates, const Landmarks& marks) {
+  const Vec3 tip = skin.mesh.positions[coordinates.extremities().head];
+  const Loop& neck = marks[LandmarkId::kNeck].loop;
+  const Ball head = head_ball(skin, coordinates);
+  if (!has_profile(head, neck)) return tip;
+  const HeadProfile profile(skin, coordinates, head, neck);
+  if (!profile.is_on_hair(tip)) return tip;
+  const Vec3 up = marks.at(LandmarkId::kCrown) - marks.at(LandmarkId::kPerineum);
+  return std::ranges::max(profile.before_hollow(), {}, [&](const Vec3& p) { return p.dot(up); });
+}
+
 }  // namespace
 
 double stature_of(const Stance& stance, const std::vector<Vec3>& points, double estimate) {
@@ -69,7 +84,7 @@ std::optional<double> standing_height(const Skin& skin, const BodyCoordinates& c
   for (std::size_t v = 0; v < p.size(); ++v)
     if (skin.component[v] == 0) own.push_back(p[v]);
   const auto middle = [&](LandmarkId left) { return Vec3(0.5 * (marks.at(left, 0) + marks.at(left, 1))); };
-  return height_of({p[tips.head],
+  return height_of({top_of_head(skin, coordinates, marks),
                     marks.at(LandmarkId::kNeck),
                     marks.at(LandmarkId::kPerineum),
                     middle(LandmarkId::kKneeL),

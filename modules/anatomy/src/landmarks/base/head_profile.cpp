@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
+#include <iterator>
 
 namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using geometry::Vec3;
-using Point = Eigen::Vector2d;  ///< forward and up from the middle of the head, fractions of the body size
+using Point = HeadProfile::Point;
 
 /// The outline is read from the forehead to the back of the head, in radians from the crown; before it lies
 /// the nose, and behind it the nape, which are hollow on all heads.
@@ -21,32 +21,44 @@ double cross(const Point& a, const Point& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// The points of the outline from the back to the forehead.
-std::vector<Point> outline(const LandmarkInput& input, const Vec3& up, const Vec3& forward) {
-  const auto& positions = input.skin.mesh.positions;
-  const Vec3 across = up.cross(forward);
-  std::array<Point, kOutlinePoints> outermost;
-  outermost.fill(Point::Zero());
-  const auto add = [&](const Vec3& from_middle) {
-    const Point p(from_middle.dot(forward) / input.size_m(), from_middle.dot(up) / input.size_m());
-    const double turn = (std::atan2(p.x(), p.y()) - kBack) / (kForehead - kBack);
-    if (!(turn >= 0.0 && turn < 1.0)) return;
-    Point& far = outermost[static_cast<std::size_t>(turn * static_cast<double>(kOutlinePoints))];
-    if (p.squaredNorm() > far.squaredNorm()) far = p;
-  };
-  for (const auto& t : input.skin.mesh.triangles)
+/// Calls visit(position) where edges of the head cross the plane through a point.
+template <class Visit>
+void for_each_crossing(const Skin& skin, const BodyCoordinates& coordinates, const Vec3& through,
+                       const Vec3& normal, Visit&& visit) {
+  const auto& positions = skin.mesh.positions;
+  for (const auto& t : skin.mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const geometry::Index v = t[k], w = t[(k + 1) % 3];
-      if (input.skin.component[v] != 0 || !input.coordinates.on_head(v)) continue;
-      const Vec3 a = positions[v] - input.head.center, b = positions[w] - input.head.center;
-      const double side_a = a.dot(across), side_b = b.dot(across);
-      if ((side_a >= 0.0) != (side_b >= 0.0)) add(a + side_a / (side_a - side_b) * (b - a));
+      if (skin.component[v] != 0 || !coordinates.on_head(v)) continue;
+      const double side_v = (positions[v] - through).dot(normal),
+                   side_w = (positions[w] - through).dot(normal);
+      if ((side_v >= 0.0) != (side_w >= 0.0))
+        visit(Vec3(positions[v] + side_v / (side_v - side_w) * (positions[w] - positions[v])));
     }
-  std::vector<Point> points;
-  for (const Point& p : outermost)
-    if (p.norm() * input.size_m() > kOuterHead * input.head.radius) points.push_back(p);
-  return points;
 }
+
+/// The outermost point in each step of the outline's turn, or zero.
+class Outermost {
+ public:
+  Outermost() { points_.fill(Point::Zero()); }
+
+  void add(const Point& p) {
+    const double turn = (std::atan2(p.x(), p.y()) - kBack) / (kForehead - kBack);
+    if (!(turn >= 0.0 && turn < 1.0)) return;
+    Point& far = points_[static_cast<std::size_t>(turn * static_cast<double>(kOutlinePoints))];
+    if (p.squaredNorm() > far.squaredNorm()) far = p;
+  }
+
+  std::vector<Point> farther_than(double radius) const {
+    std::vector<Point> points;
+    std::ranges::copy_if(points_, std::back_inserter(points),
+                         [radius](const Point& p) { return p.norm() > radius; });
+    return points;
+  }
+
+ private:
+  std::array<Point, kOutlinePoints> points_;
+};
 
 /// The corners of a band that is stretched over the points.
 std::vector<Point> stretched(const std::vector<Point>& points) {
@@ -60,20 +72,51 @@ std::vector<Point> stretched(const std::vector<Point>& points) {
   return band;
 }
 
-}  // namespace
-
-double hollow_of_head(const LandmarkInput& input, const Vec3& up, const Vec3& forward) {
-  const std::vector<Point> points = outline(input, up, forward);
+/// The depth of each point below a band that is stretched over all.
+std::vector<double> depths(const std::vector<Point>& points) {
   const std::vector<Point> band = stretched(points);
-  double deepest = 0.0;
+  std::vector<double> depth;
   std::size_t edge = 0;
   for (const Point& p : points) {
     while (edge + 2 < band.size() && cross(p, band[edge + 1]) >= 0.0) ++edge;
-    if (edge + 1 >= band.size()) break;
-    const Point along = (band[edge + 1] - band[edge]).normalized();
-    deepest = std::max(deepest, -cross(along, p - band[edge]));
+    const bool covered = edge + 1 < band.size();
+    depth.push_back(covered ? -cross((band[edge + 1] - band[edge]).normalized(), p - band[edge]) : 0.0);
   }
-  return deepest;
+  return depth;
+}
+
+}  // namespace
+
+HeadProfile::HeadProfile(const Skin& skin, const BodyCoordinates& coordinates, const Ball& head,
+                         const Loop& neck)
+    : middle_(head.center), size_m_(coordinates.size_m()) {
+  const Midline& midline = coordinates.midline();
+  up_ = (middle_ - neck.center).normalized();
+  across_ = up_.cross(midline.front.position - midline.back.position).normalized();
+  Outermost outermost;
+  for_each_crossing(skin, coordinates, middle_, across_, [&](const Vec3& p) { outermost.add(on_plane(p)); });
+  outline_ = outermost.farther_than(kOuterHead * head.radius / size_m_);
+  if (outline_.empty()) return;
+  const std::vector<double> depth = depths(outline_);
+  deepest_ = static_cast<std::size_t>(std::ranges::max_element(depth) - depth.begin());
+  hollow_ = std::max(0.0, depth[deepest_]);
+}
+
+Point HeadProfile::on_plane(const Vec3& position) const {
+  const Vec3 from_middle = position - middle_;
+  return Point(from_middle.dot(across_.cross(up_)), from_middle.dot(up_)) / size_m_;
+}
+
+bool HeadProfile::is_on_hair(const Vec3& position) const {
+  return hollow_ > kMaxHollow && cross(on_plane(position), outline_[deepest_]) < 0.0;
+}
+
+std::vector<Vec3> HeadProfile::before_hollow() const {
+  const Vec3 forward = across_.cross(up_);
+  std::vector<Vec3> positions;
+  for (std::size_t k = deepest_; k < outline_.size(); ++k)
+    positions.emplace_back(middle_ + size_m_ * (outline_[k].x() * forward + outline_[k].y() * up_));
+  return positions;
 }
 
 }  // namespace bodice::anatomy
