@@ -56,7 +56,7 @@ Vec3 top_of_head(const Skin& skin, const BodyCoordinates& coordinates, const Lan
   const HeadProfile profile(skin, coordinates, head, neck);
   if (!profile.is_on_hair(tip)) return tip;
   const Vec3 up = marks.at(LandmarkId::kCrown) - marks.at(LandmarkId::kPerineum);
-  return std::ranges::max(profile.before_hollow(), {}, [&](const Vec3& p) { return p.dot(up); });
+  return std::ranges::max(profile.before_hair(), {}, [&](const Vec3& p) { return p.dot(up); });
 }
 
 }  // namespace

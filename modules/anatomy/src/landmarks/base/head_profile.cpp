@@ -72,17 +72,24 @@ std::vector<Point> stretched(const std::vector<Point>& points) {
   return band;
 }
 
-/// The depth of each point below a band that is stretched over all.
-std::vector<double> depths(const std::vector<Point>& points) {
+struct Hollow {
+  std::size_t deepest = 0;  // index of a point
+  double depth = 0.0;
+};
+
+/// The hollows below a band that is stretched over the points, from the back to the forehead.
+std::vector<Hollow> hollows(const std::vector<Point>& points) {
   const std::vector<Point> band = stretched(points);
-  std::vector<double> depth;
+  if (band.size() < 2) return {};
+  std::vector<Hollow> found(band.size() - 1);
   std::size_t edge = 0;
-  for (const Point& p : points) {
-    while (edge + 2 < band.size() && cross(p, band[edge + 1]) >= 0.0) ++edge;
-    const bool covered = edge + 1 < band.size();
-    depth.push_back(covered ? -cross((band[edge + 1] - band[edge]).normalized(), p - band[edge]) : 0.0);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    while (edge + 2 < band.size() && cross(points[k], band[edge + 1]) >= 0.0) ++edge;
+    const Point along = (band[edge + 1] - band[edge]).normalized();
+    const double depth = -cross(along, points[k] - band[edge]);
+    if (depth > found[edge].depth) found[edge] = {k, depth};
   }
-  return depth;
+  return found;
 }
 
 }  // namespace
@@ -96,10 +103,10 @@ HeadProfile::HeadProfile(const Skin& skin, const BodyCoordinates& coordinates, c
   Outermost outermost;
   for_each_crossing(skin, coordinates, middle_, across_, [&](const Vec3& p) { outermost.add(on_plane(p)); });
   outline_ = outermost.farther_than(kOuterHead * head.radius / size_m_);
-  if (outline_.empty()) return;
-  const std::vector<double> depth = depths(outline_);
-  deepest_ = static_cast<std::size_t>(std::ranges::max_element(depth) - depth.begin());
-  hollow_ = std::max(0.0, depth[deepest_]);
+  for (const Hollow& hollow : hollows(outline_)) {
+    hollow_ = std::max(hollow_, hollow.depth);
+    if (hollow.depth > kMaxHollow) hair_.push_back(hollow.deepest);
+  }
 }
 
 Point HeadProfile::on_plane(const Vec3& position) const {
@@ -108,13 +115,17 @@ Point HeadProfile::on_plane(const Vec3& position) const {
 }
 
 bool HeadProfile::is_on_hair(const Vec3& position) const {
-  return hollow_ > kMaxHollow && cross(on_plane(position), outline_[deepest_]) < 0.0;
+  if (hair_.empty()) return false;
+  const Point p = on_plane(position);
+  const bool behind = cross(p, outline_[hair_.back()]) < 0.0, before = cross(p, outline_[hair_.front()]) > 0.0;
+  return behind && (hair_.size() == 1 || before);
 }
 
-std::vector<Vec3> HeadProfile::before_hollow() const {
+std::vector<Vec3> HeadProfile::before_hair() const {
+  if (hair_.empty()) return {};
   const Vec3 forward = across_.cross(up_);
   std::vector<Vec3> positions;
-  for (std::size_t k = deepest_; k < outline_.size(); ++k)
+  for (std::size_t k = hair_.back(); k < outline_.size(); ++k)
     positions.emplace_back(middle_ + size_m_ * (outline_[k].x() * forward + outline_[k].y() * up_));
   return positions;
 }

@@ -24,11 +24,11 @@ class HeadProfile {
   /// is stretched over it. A bare head bulges everywhere; hair that is tied up leaves a hollow before it.
   double hollow() const { return hollow_; }
 
-  /// Whether a position lies behind a hollow that no bare head has.
+  /// Whether a position lies behind a hollow that no bare head has, and before the next such one, if any.
   bool is_on_hair(const geometry::Vec3& position) const;
 
-  /// Positions on the outline from the deepest hollow to the forehead.
-  std::vector<geometry::Vec3> before_hollow() const;
+  /// Positions on the outline from the first such hollow to the forehead.
+  std::vector<geometry::Vec3> before_hair() const;
 
  private:
   Point on_plane(const geometry::Vec3& position) const;
@@ -37,7 +37,7 @@ class HeadProfile {
   double size_m_;
   std::vector<Point> outline_;  // from the back to the forehead
   double hollow_ = 0.0;
-  std::size_t deepest_ = 0;  // index of the outline's point in the hollow
+  std::vector<std::size_t> hair_;  // indices of the outline's points in hollows that no bare head has
 };
 
 /// Outlines of 150 made and 34 real heads have no hollow beyond .003 of the body size, those of noisy or

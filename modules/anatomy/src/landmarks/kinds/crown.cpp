@@ -113,7 +113,7 @@ Vec3 crown_before_hair(const LandmarkInput& input, const Loop& neck, const HeadP
     const Index v = vertex_near(input.skin, position, input.tips().head);
     return std::abs(double{input.coordinates.from_front()[v]} - double{neck.from_front} - wanted_m);
   };
-  return std::ranges::min(profile.before_hollow(), {}, off_m);
+  return std::ranges::min(profile.before_hair(), {}, off_m);
 }
 
 /// The vertex that is far from both feet and as far from the back of the neck as from its front, then
