@@ -177,13 +177,16 @@ class Scanner {
     } else if (kind_ == ScanKind::kChairFused) {
       boxes = chair(seat_of(body_) + Vec3(0.0, 0.01, 0.0));
     } else if (kind_ == ScanKind::kBunAndHem) {
-      const Vec3 bun = crown - Vec3(0.0, 0.02, 0.07), hem(0.0, 0.52 * body_.stature_m, 0.0);
-      with([bun, hem, alone](const Vec3& p) {
+      // From a knot on the head to a bun low at its back.
+      const double back = random_.uniform(0.0, 1.0), radius_m = random_.uniform(0.04, 0.06);
+      const Vec3 bun = crown - Vec3(0.0, 0.13 * back * back - 0.03, 0.02 + 0.09 * back),
+                 hem(0.0, 0.52 * body_.stature_m, 0.0);
+      with([bun, radius_m, hem, alone](const Vec3& p) {
         const double band = std::max(alone(p) - 0.025, std::abs(p.y() - hem.y()) - 0.012);
         const double trunk = std::hypot(p.x(), p.z()) - 0.24;
-        return std::min((p - bun).norm() - 0.06, std::max(band, trunk));
+        return std::min((p - bun).norm() - radius_m, std::max(band, trunk));
       });
-      box.extend(bun + Vec3(0.0, 0.06, -0.06));
+      box.extend(Vec3(bun + radius_m * Vec3(0.0, 1.0, -1.0)));
     } else if (kind_ == ScanKind::kLongHair) {
       const Box hair{{neck.x() - 0.11, neck.y() - 0.35, neck.z() - 0.2},
                      {neck.x() + 0.11, crown.y() - 0.02, neck.z() - 0.04}};
