@@ -73,6 +73,21 @@ TEST_CASE("a bun of hair is named where it stands off the head, a bare head is n
   }
 }
 
+TEST_CASE("a bun of hair moves neither the crown nor the stature, wherever it is tied") {
+  constexpr auto kCrown = static_cast<std::size_t>(body::LandmarkId::kCrown);
+  for (const std::uint64_t seed : {9600, 9601, 9602, 9603, 9604, 40007, 40105, 40107, 40108, 40109}) {
+    CAPTURE(seed);
+    const auto scan = synth::make_scan({}, synth::ScanKind::kBunAndHem, seed);
+    REQUIRE(scan.ok());
+    const synth::ScanPerson& truth = scan->persons[0];
+    const auto found = anatomy::analyze({}, made::skin_of(*scan), options(false));
+    REQUIRE(found.ok());
+    CHECK(found->stature_m == doctest::Approx(truth.stature_m).epsilon(0.02));
+    const Vec3 off = found->landmarks[kCrown].position - truth.landmarks[kCrown].position;
+    CHECK(off.norm() < 0.03 * truth.stature_m);
+  }
+}
+
 TEST_CASE("a body in one skin with its chair is refused for the flat surface") {
   for (const std::uint64_t seed : {9000, 9002, 9103}) {
     CAPTURE(seed);
