@@ -107,10 +107,11 @@ struct Tip {
   body::Part part;
 };
 constexpr Tip kTopOfHead = {LandmarkId::kCrown, LandmarkId::kNeck, body::Part::kHead};
-constexpr std::array<Tip, 4> kTipsOfLimbs = {{{LandmarkId::kFingertipL, LandmarkId::kWristL, body::Part::kForearmL},
-                                       {LandmarkId::kFingertipR, LandmarkId::kWristR, body::Part::kForearmR},
-                                       {LandmarkId::kToeL, LandmarkId::kAnkleL, body::Part::kCalfL},
-                                       {LandmarkId::kToeR, LandmarkId::kAnkleR, body::Part::kCalfR}}};
+constexpr std::array<Tip, 4> kTipsOfLimbs = {
+    {{LandmarkId::kFingertipL, LandmarkId::kWristL, body::Part::kForearmL},
+     {LandmarkId::kFingertipR, LandmarkId::kWristR, body::Part::kForearmR},
+     {LandmarkId::kToeL, LandmarkId::kAnkleL, body::Part::kCalfL},
+     {LandmarkId::kToeR, LandmarkId::kAnkleR, body::Part::kCalfR}}};
 
 bool lies_on_skin(LandmarkId id) {
   constexpr std::array kOnSkin = {LandmarkId::kNeckFront, LandmarkId::kNeckBack,  LandmarkId::kNeckSideL,

@@ -117,7 +117,7 @@ Point HeadProfile::on_plane(const Vec3& position) const {
 bool HeadProfile::is_on_hair(const Vec3& position) const {
   if (hair_.empty()) return false;
   const Point p = on_plane(position);
-  const bool behind = cross(p, outline_[hair_.back()]) < 0.0, before = cross(p, outline_[hair_.front()]) > 0.0;
+  const bool behind = cross(p, outline_[hair_.back()])<0.0, before = cross(p, outline_[hair_.front()])> 0.0;
   return behind && (hair_.size() == 1 || before);
 }
 

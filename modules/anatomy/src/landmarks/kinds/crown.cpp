@@ -105,8 +105,8 @@ FoundLandmark find_crown(const LandmarkInput& input, int) {
 /// real ones, with standard deviations of 6 %.
 constexpr double kFromThroat = 3.2;
 
-/// The point of the bare outline, before hair that stands off, whose path from the front of the neck is the
-/// likeliest one of a crown. It is the point beside the hair where the crown is under it.
+/// The point of the bare outline, before hair that stands off, with the likeliest path from the front of
+/// the neck. It is the point beside the hair where the crown is under it.
 Vec3 crown_before_hair(const LandmarkInput& input, const Loop& neck, const HeadProfile& profile) {
   const double wanted_m = kFromThroat * input.head.radius;
   const auto off_m = [&](const Vec3& position) {
