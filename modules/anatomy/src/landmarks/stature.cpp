@@ -47,14 +47,15 @@ std::optional<double> height_of(const Stance& stance, const std::vector<Vec3>& p
   return -lowest;
 }
 
-/// The top of the head: the tip, or what is highest before hair that stands off and has the tip.
+/// The top of the head: the tip, or what is highest before hair that stands off and has the tip. A crown on
+/// such hair, as on a pony tail that is longer than the neck, contradicts the profile.
 Vec3 top_of_head(const Skin& skin, const BodyCoordinates& coordinates, const Landmarks& marks) {
   const Vec3 tip = skin.mesh.positions[coordinates.extremities().head];
   const Loop& neck = marks[LandmarkId::kNeck].loop;
   const Ball head = head_ball(skin, coordinates);
   if (!has_profile(head, neck)) return tip;
   const HeadProfile profile(skin, coordinates, head, neck);
-  if (!profile.is_on_hair(tip)) return tip;
+  if (!profile.is_on_hair(tip) || profile.is_on_hair(marks.at(LandmarkId::kCrown))) return tip;
   const Vec3 up = marks.at(LandmarkId::kCrown) - marks.at(LandmarkId::kPerineum);
   return std::ranges::max(profile.before_hair(), {}, [&](const Vec3& p) { return p.dot(up); });
 }

@@ -17,6 +17,10 @@ constexpr double kForehead = 0.6, kBack = -1.55;
 /// The outline has one point in each step of a degree and a half: the outermost.
 constexpr std::size_t kOutlinePoints = 86;
 
+/// A point belongs to the side of a hollow's deepest point on which it lies by more than this, a fraction of
+/// the squared body size: a degree.
+constexpr double kBesideHollow = 1e-4;
+
 double cross(const Point& a, const Point& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
