@@ -109,7 +109,7 @@ HeadProfile::HeadProfile(const Skin& skin, const BodyCoordinates& coordinates, c
   outline_ = outermost.farther_than(kOuterHead * head.radius / size_m_);
   for (const Hollow& hollow : hollows(outline_)) {
     hollow_ = std::max(hollow_, hollow.depth);
-    if (hollow.depth > kMaxHollow) hair_.push_back(hollow.deepest);
+    if (hollow.depth > kMaxHollow) deep_hollows_.push_back(hollow.deepest);
   }
 }
 
@@ -119,17 +119,18 @@ Point HeadProfile::on_plane(const Vec3& position) const {
 }
 
 bool HeadProfile::is_on_hair(const Vec3& position) const {
-  if (hair_.empty()) return false;
+  if (deep_hollows_.empty()) return false;
   const Point p = on_plane(position);
-  const bool behind = cross(p, outline_[hair_.back()])<0.0, before = cross(p, outline_[hair_.front()])> 0.0;
-  return behind && (hair_.size() == 1 || before);
+  const double before_first = cross(p, outline_[deep_hollows_.back()]),
+               before_last = cross(p, outline_[deep_hollows_.front()]);
+  return before_first < -kBesideHollow && (deep_hollows_.size() == 1 || before_last > kBesideHollow);
 }
 
 std::vector<Vec3> HeadProfile::before_hair() const {
-  if (hair_.empty()) return {};
+  if (deep_hollows_.empty()) return {};
   const Vec3 forward = across_.cross(up_);
   std::vector<Vec3> positions;
-  for (std::size_t k = hair_.back(); k < outline_.size(); ++k)
+  for (std::size_t k = deep_hollows_.back(); k < outline_.size(); ++k)
     positions.emplace_back(middle_ + size_m_ * (outline_[k].x() * forward + outline_[k].y() * up_));
   return positions;
 }

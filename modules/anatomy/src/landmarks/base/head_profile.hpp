@@ -37,7 +37,7 @@ class HeadProfile {
   double size_m_;
   std::vector<Point> outline_;  // from the back to the forehead
   double hollow_ = 0.0;
-  std::vector<std::size_t> hair_;  // indices of the outline's points in hollows that no bare head has
+  std::vector<std::size_t> deep_hollows_;  // indices of outline points in hollows that no bare head has
 };
 
 /// Outlines of 150 made and 34 real heads have no hollow beyond .003 of the body size, those of noisy or

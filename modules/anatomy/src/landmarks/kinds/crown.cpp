@@ -42,6 +42,7 @@ constexpr double kChin = 0.5;
 /// in a hundred reach farther than .016 of the body size, and closed scans that have lost their ears up to
 /// .018. Buns reach .02 and more, or leave a hollow.
 constexpr double kLongHead = 1.6, kMaxOverhang = 0.02;
+
 /// How far a vertex lies from the feet, less what its share of the path over the head costs.
 class CrownScore {
  public:
