@@ -29,9 +29,9 @@ class Executor {
 
   /// Calls body(i) once for each i in [0, count), in any order and on any worker, and returns when all
   /// have ended. If some throw, none with a larger i starts, and the exception of the least i is rethrown
-  /// after the running ones ended: the same one in every run. Bodies start in order of i. Only in the loops
-  /// of a frame does each worker begin with another range of indices (engine/FRAMES.md). While it waits, a
-  /// thread runs only bodies of the same outermost bulk (engine/README.md, Threads).
+  /// after the running ones ended: the same one in every run. Bodies start in order of i, except in the
+  /// loops of a frame, where each worker begins with another range of indices (engine/FRAMES.md). A thread
+  /// that waits runs only bodies of the same outermost bulk (engine/README.md, Threads).
   virtual void bulk(std::size_t count, FunctionRef<void(std::size_t)> body) = 0;
 
   /// Has another worker call task->run() once, and returns at once. Returns false, without taking the task,
