@@ -48,7 +48,8 @@ std::optional<double> height_of(const Stance& stance, const std::vector<Vec3>& p
 }
 
 /// The top of the head: the tip or, where that lies on hair that stands off, the highest point before this
-/// hair. Where the crown lies on hair too, as on a long pony tail, the profile is wrong, and the tip is taken.
+/// hair. Where the crown lies on hair too, as on a long pony tail, the profile is wrong, and the tip is
+/// taken.
 Vec3 top_of_head(const Skin& skin, const BodyCoordinates& coordinates, const Landmarks& marks) {
   const Vec3 tip = skin.mesh.positions[coordinates.extremities().head];
   const Loop& neck = marks[LandmarkId::kNeck].loop;
