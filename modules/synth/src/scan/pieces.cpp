@@ -4,6 +4,7 @@
 #include <array>
 
 #include "scan/flaws.hpp"
+#include "scan/landmark_of.hpp"
 
 namespace bodice::inline v0_1::synth {
 namespace {
@@ -22,17 +23,11 @@ constexpr std::array<const char*, kPieceCount> kClothNames = {"head",   "shirt",
                                                               "hand_l", "hand_r", "trousers_l", "trousers_r",
                                                               "shoe_l", "shoe_r"};
 
-Vec3 landmark(const Body& body, body::LandmarkId id) {
-  for (const auto& mark : body.landmarks)
-    if (mark.id == id) return mark.position;
-  return Vec3::Zero();
-}
-
 int piece_at(const Body& body, Part part, const Vec3& p) {
   using body::LandmarkId;
   const auto beyond = [&](LandmarkId from, LandmarkId to) {  // beyond `to`, seen from `from`
-    const Vec3 end = landmark(body, to);
-    return (p - end).dot(end - landmark(body, from)) > 0.0;
+    const Vec3 end = landmark_of(body, to);
+    return (p - end).dot(end - landmark_of(body, from)) > 0.0;
   };
   const int side = part != Part::kHead && static_cast<int>(part) % 2 == 0;
   switch (part) {

@@ -13,6 +13,7 @@
 
 #include "scan/camera.hpp"
 #include "scan/flaws.hpp"
+#include "scan/hair.hpp"
 #include "scan/pieces.hpp"
 #include "scan/props.hpp"
 
@@ -26,6 +27,27 @@ using geometry::TriMesh;
 using geometry::Vec3;
 
 constexpr double kCameraRadius_m = 2.2;
+
+/// A shirt's hem that stands off the trunk at a level. `skin` is the body's signed distance.
+DistanceField hem(const DistanceField& skin, double level_m) {
+  return [skin, level_m](const Vec3& p) {
+    const double band = std::max(skin(p) - 0.025, std::abs(p.y() - level_m) - 0.012);
+    const double trunk = std::hypot(p.x(), p.z()) - 0.24;
+    return std::max(band, trunk);
+  };
+}
+
+/// Boxes as one solid.
+Solid solid_of(const std::vector<Box>& boxes) {
+  Solid solid;
+  for (const Box& b : boxes) solid.box.extend(b.low), solid.box.extend(b.high);
+  solid.distance = [boxes](const Vec3& p) {
+    double least = 1e9;
+    for (const Box& b : boxes) least = std::min(least, distance_to_box(b, p));
+    return least;
+  };
+  return solid;
+}
 
 /// Makes one scan, in the body's own coordinates until the end.
 class Scanner {
@@ -155,62 +177,36 @@ class Scanner {
   /// The kinds that are one surface around a field.
   void fuse() {
     const MeshDistance body(context_, body_.mesh);
-    DistanceField field = [&](const Vec3& p) { return body.signed_distance(p); };
-    Box box = geometry::bounding_box(body_.mesh.positions);
-    double cell_m = 0.01;
+    const DistanceField skin = [&](const Vec3& p) { return body.signed_distance(p); };
+    Solid all{skin, geometry::bounding_box(body_.mesh.positions)};
     std::optional<MeshDistance> second;
-    std::vector<Box> boxes;
-    Vec3 crown = body_.mesh.positions.front(), neck = crown;
-    for (const auto& mark : body_.landmarks) {
-      if (mark.id == body::LandmarkId::kCrown) crown = mark.position;
-      if (mark.id == body::LandmarkId::kNeck) neck = mark.position;
-    }
-    const DistanceField alone = field;
-    const auto with = [&](auto other) {
-      field = [alone, other](const Vec3& p) { return std::min(alone(p), other(p)); };
-    };
     if (kind_ == ScanKind::kWebbed) {  // what lies within 9 mm of itself grows together
-      cell_m = 0.018;
-      field = [alone](const Vec3& p) { return alone(p) - 0.004; };
+      all.distance = [skin](const Vec3& p) { return skin(p) - 0.004; };
     } else if (kind_ == ScanKind::kFloorJoined) {
-      boxes = {{{-0.8, -0.03, -0.8}, {0.8, 0.006, 0.8}}};
+      all.add(solid_of({{{-0.8, -0.03, -0.8}, {0.8, 0.006, 0.8}}}));
     } else if (kind_ == ScanKind::kChairFused) {
-      boxes = chair(seat_of(body_) + Vec3(0.0, 0.01, 0.0));
+      all.add(solid_of(chair(seat_of(body_) + Vec3(0.0, 0.01, 0.0))));
     } else if (kind_ == ScanKind::kBunAndHem) {
-      // From a knot on the head to a bun low at its back.
-      const double back = random_.uniform(0.0, 1.0), radius_m = random_.uniform(0.04, 0.06);
-      const Vec3 bun = crown - Vec3(0.0, 0.13 * back * back - 0.03, 0.02 + 0.09 * back),
-                 hem(0.0, 0.52 * body_.stature_m, 0.0);
-      with([bun, radius_m, hem, alone](const Vec3& p) {
-        const double band = std::max(alone(p) - 0.025, std::abs(p.y() - hem.y()) - 0.012);
-        const double trunk = std::hypot(p.x(), p.z()) - 0.24;
-        return std::min((p - bun).norm() - radius_m, std::max(band, trunk));
-      });
-      box.extend(Vec3(bun + radius_m * Vec3(0.0, 1.0, -1.0)));
+      all.add(hair_in_a_bun(body_, random_));
+      all.add({hem(skin, 0.52 * body_.stature_m), {}});
     } else if (kind_ == ScanKind::kLongHair) {
-      const Box hair{{neck.x() - 0.11, neck.y() - 0.35, neck.z() - 0.2},
-                     {neck.x() + 0.11, crown.y() - 0.02, neck.z() - 0.04}};
-      boxes = {hair};
+      all.add(hair_that_hangs(body_, skin, random_));
     } else if (kind_ == ScanKind::kTwoFused) {
       const TriMesh other = second_person();
       second.emplace(context_, other);
-      with([&](const Vec3& p) { return second->signed_distance(p); });
-      for (const Vec3& p : other.positions) box.extend(p);
-    } else if (kind_ == ScanKind::kPhotogrammetry) {
-      cell_m = 0.006;
-    } else if (kind_ == ScanKind::kClosed) {
-      cell_m = 0.008;
+      all.add({[&](const Vec3& p) { return second->signed_distance(p); },
+               geometry::bounding_box(other.positions)});
     }
-    if (!boxes.empty())
-      with([&](const Vec3& p) {
-        double least = 1e9;
-        for (const Box& b : boxes) least = std::min(least, distance_to_box(b, p));
-        return least;
-      });
-    for (const Box& b : boxes) box.extend(b.low), box.extend(b.high);
-    TriMesh mesh = geometry::contour(context_, geometry::sample_field(context_, field, box, cell_m));
+    TriMesh mesh =
+        geometry::contour(context_, geometry::sample_field(context_, all.distance, all.box, cell_m()));
     finish(mesh);
     add("scan", std::move(mesh));
+  }
+
+  double cell_m() const {
+    if (kind_ == ScanKind::kWebbed) return 0.018;
+    if (kind_ == ScanKind::kPhotogrammetry) return 0.006;
+    return kind_ == ScanKind::kClosed ? 0.008 : 0.01;
   }
 
   void finish(TriMesh& mesh) {

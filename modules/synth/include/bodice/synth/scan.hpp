@@ -26,7 +26,7 @@ enum class ScanKind {
   kFloorJoined,     ///< the feet grown into a floor
   kFloorLoose,      ///< the floor a piece of its own
   kBunAndHem,       ///< a bun of hair and the hem of a shirt
-  kLongHair,        ///< hair down to the waist
+  kLongHair,        ///< hair that hangs down, to the waist at most
   kPhotogrammetry,  ///< many vertices, bad triangles, millimeters, z up
   kPieces,          ///< head, trunk, hands, legs and feet with gaps between them
   kTucked,          ///< the same, each a little inside the next
