@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include <bodice/geometry/mesh_edges.hpp>
+#include <bodice/geometry/mesh_repair.hpp>
 #include <bodice/geometry/rebuild.hpp>
 #include <bodice/geometry/smallest_turn.hpp>
 #include <bodice_test/shapes.hpp>
@@ -56,6 +57,20 @@ TEST_CASE("parts that are thinner than a cell are rebuilt, and a floor that the 
   const Box box = bounding_box(rebuilt.mesh.positions);
   CHECK(box.high.x() < 1.2);
   CHECK(box.low.x() > -1.2);
+}
+
+TEST_CASE("a card beside the body that is both sides of one sheet is not rebuilt") {
+  TriMesh top = bodice_test::sheet(0.8, 0.8, 20, 20), bottom = top;
+  for (Triangle& t : bottom.triangles) std::swap(t[1], t[2]);
+  for (Vec3& p : top.positions) p.y() -= 1.2;
+  for (Vec3& p : bottom.positions) p.y() -= 1.205;
+  const TriMesh ball = bodice_test::icosphere(1.0, 4);
+  const TriMesh with_card = bodice_test::joined(ball, bodice_test::joined(top, bottom));
+  const RebuiltSurface alone = rebuild({}, ball, 0.05), rebuilt = rebuild({}, with_card, 0.05);
+  CHECK(connected_components(rebuilt.mesh).area.size() == 1);
+  CHECK(mesh_edges(rebuilt.mesh).boundary == 0);
+  CHECK(rebuilt.measured.size() == rebuilt.mesh.positions.size());
+  CHECK(signed_volume(rebuilt.mesh) == doctest::Approx(signed_volume(alone.mesh)).epsilon(0.01));
 }
 
 TEST_CASE("the end of a piece that is tucked into another one is covered, not lost") {

@@ -22,6 +22,8 @@ constexpr double kMeasuredCells = 1.0;
 constexpr double kAlongNormal = 0.9;
 /// Components below this share of the largest one's area are bubbles and debris.
 constexpr double kSmallest = 0.01;
+/// The least volume of a component by its area to the power of 1.5: a finger has .03, and a ball .09.
+constexpr double kLeastRoundness = 0.004;
 /// Cells from the contour to data that is too thin for it, and from the finished surface to data that it has
 /// lost; what lies farther than the last is something else.
 constexpr double kThinFrom = 1.25, kLostFrom = 2.0, kLostUpTo = 12.0;
@@ -151,6 +153,34 @@ void snap(const engine::Context& context, const MeshDistance& data, double withi
   out.measured.assign(near.begin(), near.end());
 }
 
+/// Removes components that the data has flattened, as it does where the winding number has taken both sides
+/// of a floor for a body. The largest component stays.
+void drop_flat_components(RebuiltSurface& out) {
+  const Components components = connected_components(out.mesh);
+  std::vector<double> volume(components.area.size());
+  for (const Triangle& t : out.mesh.triangles) {
+    const auto& p = out.mesh.positions;
+    volume[components.of_vertex[t[0]]] += p[t[0]].dot(p[t[1]].cross(p[t[2]])) / 6.0;
+  }
+  std::vector<char> flat(volume.size());
+  for (std::size_t c = 1; c < flat.size(); ++c)
+    flat[c] = std::abs(volume[c]) < kLeastRoundness * std::pow(components.area[c], 1.5);
+  if (std::ranges::count(flat, char{1}) == 0) return;
+  std::vector<Index> moved_to(out.mesh.positions.size());
+  Index count = 0;
+  for (std::size_t v = 0; v < moved_to.size(); ++v) {
+    moved_to[v] = count;
+    if (flat[components.of_vertex[v]]) continue;
+    out.mesh.positions[count] = out.mesh.positions[v];
+    out.measured[count++] = out.measured[v];
+  }
+  std::erase_if(out.mesh.triangles, [&](const Triangle& t) { return flat[components.of_vertex[t[0]]] != 0; });
+  for (Triangle& t : out.mesh.triangles)
+    for (Index& v : t) v = moved_to[v];
+  out.mesh.positions.resize(count);
+  out.measured.resize(count);
+}
+
 /// Each vertex that is not measured goes toward the mean of its neighbors: the steps of the grid vanish.
 void smooth_made_up(RebuiltSurface& out) {
   std::vector<Vec3>& positions = out.mesh.positions;
@@ -190,6 +220,7 @@ RebuiltSurface rebuild(const engine::Context& context, const TriMesh& surface, d
   out.mesh = contour_with_thin_parts(context, surface, grid);
   if (out.mesh.empty()) return out;
   snap(context, data, kMeasuredCells * cell_m, out);
+  drop_flat_components(out);
   smooth_made_up(out);
   out.measured_share = measured_share(out);
   const MeshDistance rebuilt(context, out.mesh);

@@ -10,7 +10,7 @@ namespace bodice::inline v0_1::geometry {
 
 /// A closed surface, and which of its vertices lie on the surface that it was made from.
 struct RebuiltSurface {
-  TriMesh mesh;                 ///< closed, wound outward; parts smaller than a hundredth of it are left out
+  TriMesh mesh;  ///< closed, wound outward; parts that are flat or below a hundredth of it are left out
   std::vector<bool> measured;   ///< #V; others close holes and gaps
   double measured_share = 0.0;  ///< of the area
   double lost_share = 0.0;      ///< share of the given area that the surface lacks, such as tips of fingers
