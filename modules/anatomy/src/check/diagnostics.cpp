@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "check/fused_limbs.hpp"
+#include "check/hanging_hair.hpp"
 #include "check/landmark_warnings.hpp"
 
 namespace bodice::inline v0_1::anatomy {
@@ -110,6 +111,11 @@ std::vector<Warning> diagnose(const Findings& found, const body::ProportionProfi
   if (found.sides.confidence < kUncertainSides)
     warnings.push_back({"sides-uncertain", "", "Left and right could not be distinguished with confidence.",
                         "Check that the triangles are wound outwards and the feet are whole."});
+  const Landmarks& marks = found.landmarks.marks;
+  if (marks.head_profile && covers_nape(found.skin, coordinates, marks))
+    warnings.push_back({"nape-covered", "head",
+                        "Something covers the nape, such as hair that hangs down: it counts as skin.",
+                        "For the body alone, scan it with the hair tied up or under a cap."});
   if (!coordinates.midline_found())
     warnings.push_back({"midline-not-found", "torso_ml", "No closed line runs around the middle of the body.",
                         "Close holes at chest and back, or separate welded limbs."});

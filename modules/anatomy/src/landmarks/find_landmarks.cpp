@@ -82,6 +82,7 @@ CheckedLandmarks find_landmarks(const engine::Context& context, const Skin& skin
   const std::vector<Task> tasks = all_tasks();
   CheckedLandmarks found;
   find_first(input, tasks, found.marks);
+  found.marks.head_profile = head_profile(skin, coordinates, input.head, found.marks[LandmarkId::kNeck].loop);
   run_step(input, &LandmarkKind::refine, found.marks);
   run_step(input, &LandmarkKind::finish, found.marks);
   found.differences = check_all(input, tasks, found.marks);

@@ -7,8 +7,6 @@
 
 #include <coefficients/stature.hpp>
 
-#include "landmarks/base/head_profile.hpp"
-
 namespace bodice::inline v0_1::anatomy {
 namespace {
 
@@ -50,15 +48,12 @@ std::optional<double> height_of(const Stance& stance, const std::vector<Vec3>& p
 /// The top of the head: the tip or, where that lies on hair that stands off, the highest point before this
 /// hair. Where the crown lies on hair too, as on a long pony tail, the profile is wrong, and the tip is
 /// taken.
-Vec3 top_of_head(const Skin& skin, const BodyCoordinates& coordinates, const Landmarks& marks) {
-  const Vec3 tip = skin.mesh.positions[coordinates.extremities().head];
-  const Loop& neck = marks[LandmarkId::kNeck].loop;
-  const Ball head = head_ball(skin, coordinates);
-  if (!has_profile(head, neck)) return tip;
-  const HeadProfile profile(skin, coordinates, head, neck);
-  if (!profile.is_on_hair(tip) || profile.is_on_hair(marks.at(LandmarkId::kCrown))) return tip;
-  const Vec3 up = marks.at(LandmarkId::kCrown) - marks.at(LandmarkId::kPerineum);
-  return std::ranges::max(profile.before_hair(), {}, [&](const Vec3& p) { return p.dot(up); });
+Vec3 top_of_head(const Vec3& tip, const Landmarks& marks) {
+  const std::optional<HeadProfile>& profile = marks.head_profile;
+  const Vec3& crown = marks.at(LandmarkId::kCrown);
+  if (!profile || !profile->is_on_hair(tip) || profile->is_on_hair(crown)) return tip;
+  const Vec3 up = crown - marks.at(LandmarkId::kPerineum);
+  return std::ranges::max(profile->before_hair(), {}, [&](const Vec3& p) { return p.dot(up); });
 }
 
 }  // namespace
@@ -86,7 +81,7 @@ std::optional<double> standing_height(const Skin& skin, const BodyCoordinates& c
   for (std::size_t v = 0; v < p.size(); ++v)
     if (skin.component[v] == 0) own.push_back(p[v]);
   const auto middle = [&](LandmarkId left) { return Vec3(0.5 * (marks.at(left, 0) + marks.at(left, 1))); };
-  return height_of({top_of_head(skin, coordinates, marks),
+  return height_of({top_of_head(p[tips.head], marks),
                     marks.at(LandmarkId::kNeck),
                     marks.at(LandmarkId::kPerineum),
                     middle(LandmarkId::kKneeL),

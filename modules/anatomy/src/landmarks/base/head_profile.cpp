@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "skin/plane_crossings.hpp"
+
 namespace bodice::inline v0_1::anatomy {
 namespace {
 
@@ -23,22 +25,6 @@ constexpr double kBesideHollow = 1e-4;
 
 double cross(const Point& a, const Point& b) {
   return a.x() * b.y() - a.y() * b.x();
-}
-
-/// Calls visit(position) where edges of the head cross the plane through a point.
-template <class Visit>
-void for_each_crossing(const Skin& skin, const BodyCoordinates& coordinates, const Vec3& through,
-                       const Vec3& normal, Visit&& visit) {
-  const auto& positions = skin.mesh.positions;
-  for (const auto& t : skin.mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const geometry::Index v = t[k], w = t[(k + 1) % 3];
-      if (skin.component[v] != 0 || !coordinates.on_head(v)) continue;
-      const double side_v = (positions[v] - through).dot(normal),
-                   side_w = (positions[w] - through).dot(normal);
-      if ((side_v >= 0.0) != (side_w >= 0.0))
-        visit(Vec3(positions[v] + side_v / (side_v - side_w) * (positions[w] - positions[v])));
-    }
 }
 
 /// The outermost point in each step of the outline's turn, or zero.
@@ -100,12 +86,14 @@ std::vector<Hollow> hollows(const std::vector<Point>& points) {
 
 HeadProfile::HeadProfile(const Skin& skin, const BodyCoordinates& coordinates, const Ball& head,
                          const Loop& neck)
-    : middle_(head.center), size_m_(coordinates.size_m()) {
+    : head_(head), size_m_(coordinates.size_m()) {
   const Midline& midline = coordinates.midline();
-  up_ = (middle_ - neck.center).normalized();
+  up_ = (middle() - neck.center).normalized();
   across_ = up_.cross(midline.front.position - midline.back.position).normalized();
   Outermost outermost;
-  for_each_crossing(skin, coordinates, middle_, across_, [&](const Vec3& p) { outermost.add(on_plane(p)); });
+  for_each_crossing(skin, {middle(), across_}, [&](geometry::Index v, const Vec3& p) {
+    if (coordinates.on_head(v)) outermost.add(on_plane(p));
+  });
   outline_ = outermost.farther_than(kOuterHead * head.radius / size_m_);
   for (const Hollow& hollow : hollows(outline_)) {
     hollow_ = std::max(hollow_, hollow.depth);
@@ -114,7 +102,7 @@ HeadProfile::HeadProfile(const Skin& skin, const BodyCoordinates& coordinates, c
 }
 
 Point HeadProfile::on_plane(const Vec3& position) const {
-  const Vec3 from_middle = position - middle_;
+  const Vec3 from_middle = position - middle();
   return Point(from_middle.dot(across_.cross(up_)), from_middle.dot(up_)) / size_m_;
 }
 
@@ -131,8 +119,14 @@ std::vector<Vec3> HeadProfile::before_hair() const {
   const Vec3 forward = across_.cross(up_);
   std::vector<Vec3> positions;
   for (std::size_t k = deep_hollows_.back(); k < outline_.size(); ++k)
-    positions.emplace_back(middle_ + size_m_ * (outline_[k].x() * forward + outline_[k].y() * up_));
+    positions.emplace_back(middle() + size_m_ * (outline_[k].x() * forward + outline_[k].y() * up_));
   return positions;
+}
+
+std::optional<HeadProfile> head_profile(const Skin& skin, const BodyCoordinates& coordinates,
+                                        const Ball& head, const Loop& neck) {
+  if (!neck.found() || !(head.radius > 0.0)) return std::nullopt;
+  return HeadProfile(skin, coordinates, head, neck);
 }
 
 }  // namespace bodice::anatomy

@@ -1,9 +1,11 @@
 // The outline of the head from the forehead over the crown to the back, and hair that stands off it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "landmarks/base/landmarks.hpp"
+#include "coordinates/head_ball.hpp"
+#include "landmarks/base/loop.hpp"
 
 namespace bodice::inline v0_1::anatomy {
 
@@ -16,9 +18,20 @@ class HeadProfile {
   /// O(#F). Preconditions: the neck was found, and the head has a radius.
   HeadProfile(const Skin& skin, const BodyCoordinates& coordinates, const Ball& head, const Loop& neck);
 
+  const Ball& head() const { return head_; }
+  const geometry::Vec3& middle() const { return head_.center; }
+
   /// Unit vectors: from the neck to the middle of the head, and at right angles to that.
   const geometry::Vec3& up() const { return up_; }
   const geometry::Vec3& across() const { return across_; }
+
+  /// A position on the plane of symmetry.
+  Point on_plane(const geometry::Vec3& position) const;
+
+  /// The back of the head; empty where its outline has no point.
+  std::optional<Point> back() const {
+    return outline_.empty() ? std::nullopt : std::optional(outline_.front());
+  }
 
   /// The deepest hollow of the outline, a fraction of the body size: how far the skin lies below a band that
   /// is stretched over it. A bare head bulges everywhere; hair that is tied up leaves a hollow before it.
@@ -31,9 +44,8 @@ class HeadProfile {
   std::vector<geometry::Vec3> before_hair() const;
 
  private:
-  Point on_plane(const geometry::Vec3& position) const;
-
-  geometry::Vec3 middle_, up_, across_;
+  Ball head_;
+  geometry::Vec3 up_, across_;
   double size_m_;
   std::vector<Point> outline_;  // from the back to the forehead
   double hollow_ = 0.0;
@@ -44,9 +56,8 @@ class HeadProfile {
 /// closed scans .0036 at most, and those with a bun .0064 at least.
 inline constexpr double kMaxHollow = 0.005;
 
-/// Whether a head has a profile.
-inline bool has_profile(const Ball& head, const Loop& neck) {
-  return neck.found() && head.radius > 0.0;
-}
+/// The profile of a head; empty where its neck was not found or it has no radius. O(#F).
+std::optional<HeadProfile> head_profile(const Skin& skin, const BodyCoordinates& coordinates,
+                                        const Ball& head, const Loop& neck);
 
 }  // namespace bodice::anatomy

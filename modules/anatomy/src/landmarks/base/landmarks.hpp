@@ -3,23 +3,11 @@
 
 #include <bodice/body/landmark.hpp>
 
-#include "coordinates/head_ball.hpp"
+#include "landmarks/base/head_profile.hpp"
 
 namespace bodice::inline v0_1::anatomy {
 
 using body::LandmarkId;
-
-/// A closed curve around the neck, the trunk or a limb.
-struct Loop {
-  geometry::Vec3 center = geometry::Vec3::Zero();  ///< centroid of the curve
-  geometry::Index vertex = geometry::kNoIndex;     ///< a vertex of the skin beside the curve
-  double girth_m = 0.0;
-  double confidence = 0.0;                    ///< 1 for a closed curve, 0.5 for one that a hole cuts
-  float level_m = 0.0F;                       ///< mean distance of the curve from the end of its limb
-  float from_front = 0.0F, from_back = 0.0F;  ///< least distance on it from breastbone and back, meters
-
-  bool found() const { return vertex != geometry::kNoIndex; }
-};
 
 /// One landmark of one side as a step of its search gives it; landmarks in joints and levels have a loop.
 struct FoundLandmark {
@@ -30,6 +18,7 @@ struct FoundLandmark {
 /// All landmarks as far as they are known, by LandmarkId.
 struct Landmarks {
   std::array<FoundLandmark, body::kLandmarkCount> of;
+  std::optional<HeadProfile> head_profile;  ///< empty before the first estimates, and without head or neck
 
   FoundLandmark& operator[](LandmarkId id) { return of[static_cast<std::size_t>(id)]; }
   const FoundLandmark& operator[](LandmarkId id) const { return of[static_cast<std::size_t>(id)]; }

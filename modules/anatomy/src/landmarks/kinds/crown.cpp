@@ -7,7 +7,6 @@
 #include "coordinates/body_lengths.hpp"
 #include "landmarks/base/correction.hpp"
 #include "landmarks/base/far_end.hpp"
-#include "landmarks/base/head_profile.hpp"
 #include "landmarks/base/landmark_kind.hpp"
 #include "skin/soft_position.hpp"
 
@@ -122,7 +121,7 @@ Vec3 crown_before_hair(const LandmarkInput& input, const Loop& neck, const HeadP
 FoundLandmark refine_crown(const LandmarkInput& input, const Landmarks& marks, int) {
   const Loop& neck = marks[LandmarkId::kNeck].loop;
   FoundLandmark crown = marks[LandmarkId::kCrown];
-  if (!has_profile(input.head, neck)) return crown;
+  if (!marks.head_profile) return crown;
   const CrownScore score(input, neck);
   const Index best = best_vertex(input, score);
   const float most = score(best);
@@ -132,9 +131,8 @@ FoundLandmark refine_crown(const LandmarkInput& input, const Landmarks& marks, i
   };
   const double radius = static_cast<double>(kDomeRadius * input.coordinates.size_m());
   const Vec3 first = soft_position(input.skin, best, radius, dome);
-  const HeadProfile profile(input.skin, input.coordinates, input.head, neck);
-  crown.mark.position = profile.is_on_hair(first)
-                            ? crown_before_hair(input, neck, profile)
+  crown.mark.position = marks.head_profile->is_on_hair(first)
+                            ? crown_before_hair(input, neck, *marks.head_profile)
                             : corrected(input, head_correction(input, neck, first)).position;
   crown.mark.vertex = vertex_near(input.skin, crown.mark.position, best);
   return crown;
@@ -160,9 +158,8 @@ double overhang(const LandmarkInput& input, const HeadProfile& profile) {
 
 /// Hair that stands off, by the sign that shows it best; 1 is the most that a bare head has.
 double hair(const LandmarkInput& input, const Landmarks& marks, int) {
-  const Loop& neck = marks[LandmarkId::kNeck].loop;
-  if (!has_profile(input.head, neck)) return -1.0;
-  const HeadProfile profile(input.skin, input.coordinates, input.head, neck);
+  if (!marks.head_profile) return -1.0;
+  const HeadProfile& profile = *marks.head_profile;
   return std::max(overhang(input, profile) / kMaxOverhang, profile.hollow() / kMaxHollow);
 }
 

@@ -1,0 +1,90 @@
+// Hair that is taken for skin: what is tied up, and what hangs down.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include <bodice/geometry/mesh_distance.hpp>
+#include <bodice/synth/scan.hpp>
+
+#include "analyzed.hpp"
+#include "made.hpp"
+
+using namespace bodice;
+using geometry::TriMesh;
+using geometry::Vec3;
+
+namespace {
+
+constexpr std::size_t kMainLandmarks = 13;
+
+bool names_nape(const anatomy::Anatomy& found) {
+  return std::ranges::any_of(found.warnings,
+                             [](const engine::Warning& w) { return w.code == "nape-covered"; });
+}
+
+/// The share of a surface that lies farther than this from another one.
+double share_farther_than(double far_m, const TriMesh& surface, const TriMesh& other) {
+  const geometry::MeshDistance distance({}, other);
+  double all = 0.0, far = 0.0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const double area = area_vector(surface, t).norm();
+    const Vec3 middle = (surface.corner(t, 0) + surface.corner(t, 1) + surface.corner(t, 2)) / 3.0;
+    all += area;
+    if (!distance.closest_point_within(middle, far_m)) far += area;
+  }
+  return far / all;
+}
+
+}  // namespace
+
+TEST_CASE("a bun of hair is named where it stands off the head, a bare head is not") {
+  for (const std::uint64_t seed : {9600, 9605, 40007, 40105, 40107}) {
+    CAPTURE(seed);
+    const auto scan = synth::make_scan({}, synth::ScanKind::kBunAndHem, seed);
+    REQUIRE(scan.ok());
+    const auto names_hair = [](const TriMesh& skin) {
+      const anatomy::Anatomy found = analyzed(skin);
+      return std::any_of(found.warnings.begin(), found.warnings.end(), [](const engine::Warning& w) {
+        return w.code == "crown-disagrees" && w.message.find("stands off the head") != std::string::npos;
+      });
+    };
+    CHECK(names_hair(made::skin_of(*scan)));
+    CHECK(!names_hair(scan->persons[0].body));
+  }
+}
+
+TEST_CASE("a bun of hair moves neither the crown nor the stature, wherever it is tied") {
+  constexpr auto kCrown = static_cast<std::size_t>(body::LandmarkId::kCrown);
+  for (const std::uint64_t seed : {9600, 9601, 9602, 9603, 9604, 40007, 40105, 40107, 40108, 40109}) {
+    CAPTURE(seed);
+    const auto scan = synth::make_scan({}, synth::ScanKind::kBunAndHem, seed);
+    REQUIRE(scan.ok());
+    const synth::ScanPerson& truth = scan->persons[0];
+    const anatomy::Anatomy found = analyzed(made::skin_of(*scan));
+    CHECK(found.stature_m == doctest::Approx(truth.stature_m).epsilon(0.02));
+    const Vec3 off = found.landmarks[kCrown].position - truth.landmarks[kCrown].position;
+    CHECK(off.norm() < 0.03 * truth.stature_m);
+  }
+}
+
+TEST_CASE("hair that stands off the neck is named and moves no landmark, a bare neck is not") {
+  int thick = 0;
+  for (const std::uint64_t seed : {41000, 41003, 41007, 41009}) {
+    CAPTURE(seed);
+    const auto scan = synth::make_scan({}, synth::ScanKind::kLongHair, seed);
+    REQUIRE(scan.ok());
+    const synth::ScanPerson& truth = scan->persons[0];
+    const TriMesh skin = made::skin_of(*scan);
+    const anatomy::Anatomy found = analyzed(skin), bare = analyzed(truth.body);
+    CHECK(!names_nape(bare));
+    if (share_farther_than(0.03, skin, truth.body) > 0.02) {
+      ++thick;
+      CHECK(names_nape(found));
+    }
+    for (std::size_t i = 0; i < kMainLandmarks; ++i) {
+      const double off = (found.landmarks[i].position - truth.landmarks[i].position).norm();
+      CHECK_MESSAGE(off < 0.045 * truth.stature_m, body::kLandmarkNames[i]);
+    }
+  }
+  CHECK(thick == 3);
+}
