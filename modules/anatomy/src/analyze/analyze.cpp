@@ -10,6 +10,7 @@
 #include "check/flat_parts.hpp"
 #include "check/fold_doubts.hpp"
 #include "check/fused_limbs.hpp"
+#include "check/sixth_end.hpp"
 #include "check/unequal_arms.hpp"
 #include "landmarks/find_landmarks.hpp"
 #include "landmarks/stature.hpp"
@@ -34,6 +35,12 @@ Error no_body(const std::string& why) {
           "Give one closed skin with a head, two arms and two legs, apart from floor, furniture and others."};
 }
 
+/// The warning of a result that was forced.
+Warning not_human(const std::string& why) {
+  return {"not-human", "", "The analysis went on although " + why + ".",
+          "Check the landmarks and the parts."};
+}
+
 Vec3 upwards(const Skin& skin, const Landmarks& marks, geometry::Index perineum) {
   const Vec3 up = marks.at(LandmarkId::kNeck) - skin.mesh.positions[perineum];
   const double length = up.norm();
@@ -54,6 +61,8 @@ engine::Result<Anatomy> analyze_skin(const engine::Context& context, const Skin&
   const Sides sides = find_sides(context, skin, *found);
   const BodyExtremities tips = in_body_order(*found, sides);
   const BodyCoordinates coordinates(context, skin, tips);
+  const std::optional<std::string> sixth_end = sixth_end_clause(skin, tips, coordinates.size_m());
+  if (sixth_end && !options.force) return no_body(*sixth_end + ".");
   const CheckedLandmarks landmarks = find_landmarks(context, skin, coordinates);
   if (const auto fused = fused_limbs_error(skin, coordinates, landmarks)) return *fused;
   anatomy.stature_m = find_stature(skin, coordinates, landmarks.marks);
@@ -66,6 +75,7 @@ engine::Result<Anatomy> analyze_skin(const engine::Context& context, const Skin&
   segment_timer.stop();
   anatomy.warnings =
       diagnose({skin, *found, sides, coordinates, landmarks}, options.profile, anatomy.stature_m);
+  if (sixth_end) anatomy.warnings.push_back(not_human(*sixth_end));
   return anatomy;
 }
 
@@ -141,8 +151,7 @@ engine::Result<Anatomy> checked(const geometry::TriMesh& mesh, engine::Result<An
     refusal.remedy += " Forced (program: --force), it is fitted all the same.";
     return refusal;
   }
-  found->warnings.push_back(
-      {"not-human", "", "The analysis went on although " + why + ".", "Check the landmarks and the parts."});
+  found->warnings.push_back(not_human(why));
   return found;
 }
 
