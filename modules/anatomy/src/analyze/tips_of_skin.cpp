@@ -23,6 +23,14 @@ void drop_crown_doubts(const Anatomy& as_is, Anatomy& apart) {
   crown.confidence = given.confidence;
 }
 
+bool is_of_nape(const engine::Warning& warning) {
+  return warning.code == "nape-covered";
+}
+
+void drop_nape_doubts(const Anatomy& as_is, Anatomy& apart) {
+  if (!std::ranges::any_of(as_is.warnings, is_of_nape)) std::erase_if(apart.warnings, is_of_nape);
+}
+
 void take_fingertips(const Anatomy& as_is, Anatomy& apart) {
   if (limbs_meet(as_is)) return;
   for (const LandmarkId id : {LandmarkId::kFingertipL, LandmarkId::kFingertipR}) {
@@ -42,6 +50,7 @@ bool is_of_crown(const engine::Warning& warning) {
 
 void take_tips(const Anatomy& as_is, Anatomy& apart) {
   drop_crown_doubts(as_is, apart);
+  drop_nape_doubts(as_is, apart);
   take_fingertips(as_is, apart);
 }
 
