@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <tuple>
 
-#include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/mesh_edges.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 #include <bodice/synth/scan.hpp>
+#include <bodice_test/share_near.hpp>
 
 using namespace bodice;
 using geometry::TriMesh;
@@ -33,21 +33,10 @@ struct Match {
   double scan_on_body = 0.0, body_in_scan = 0.0;
 };
 
-double share_near(const TriMesh& mesh, const TriMesh& other, double within_m) {
-  const geometry::MeshDistance distance({}, other);
-  double all = 0.0, near = 0.0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const double area = area_vector(mesh, t).norm();
-    const Vec3 middle = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
-    all += area;
-    near += distance.closest_point_within(middle, within_m) ? area : 0.0;
-  }
-  return near / all;
-}
-
 Match match(const synth::Scan& scan, double within_m) {
   const TriMesh all = inside(scan);
-  return {share_near(all, scan.persons[0].body, within_m), share_near(scan.persons[0].body, all, within_m)};
+  return {bodice_test::share_near(all, scan.persons[0].body, within_m),
+          bodice_test::share_near(scan.persons[0].body, all, within_m)};
 }
 
 synth::Scan made(ScanKind kind, std::uint64_t seed = 1) {

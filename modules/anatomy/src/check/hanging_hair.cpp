@@ -15,7 +15,7 @@ using Point = HeadProfile::Point;
 /// Hollows of the nape below the line from the head to the back are .011 of the body size deep and more on
 /// clean bodies with a wide neck, and at most .008 under hair that stands off by centimeters.
 constexpr double kFlatNape = 0.0095;
-/// The nape is looked at in so many steps from the back of the head to the back.
+/// The number of steps from the back of the head to the back in which the outermost point is kept.
 constexpr std::size_t kNapeSteps = 24;
 /// The back lies this far below the middle of the head, by the head's radius, give or take a share of that.
 constexpr double kBackBelow = 2.8, kBackHeight = 0.1;
@@ -25,7 +25,8 @@ constexpr double kBackBelow = 2.8, kBackHeight = 0.1;
 /// it.
 constexpr double kBareNeck = 0.62;
 constexpr std::array kLevels = {0.2, 0.35, 0.5};
-/// Behind the neck: from here to there, and no farther to the side; by the head's radius.
+/// The skin behind the neck lies between the first two distances from its axis, and at most the third to the
+/// side; by the head's radius.
 constexpr double kBehind = 0.4, kFarBehind = 2.2, kFarAside = 1.6;
 
 /// The points at which the plane of symmetry cuts the skin.

@@ -9,8 +9,8 @@ namespace bodice::inline v0_1::anatomy {
 namespace {
 
 /// The largest distance along the skin to the nearest extremity that a body may have, a fraction of its size.
-/// 1,200 bodies of all builds and poses have .70 at most, at the middle of a heavy trunk. Of two people in
-/// one skin, one has an end .72 to 1.1 away.
+/// 1,200 bodies of all builds and poses have .70 at most, at the middle of a heavy trunk. Of 48 pairs of
+/// people in one skin, 40 have more, up to 1.1; the others are refused for their parts.
 constexpr float kFarthestSkin = 0.73F;
 
 float farthest_from_extremities(const Skin& skin, const BodyExtremities& tips) {

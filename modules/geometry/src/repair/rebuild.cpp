@@ -153,8 +153,8 @@ void snap(const engine::Context& context, const MeshDistance& data, double withi
   out.measured.assign(near.begin(), near.end());
 }
 
-/// Removes components that the data has flattened, as it does where the winding number has taken both sides
-/// of a floor for a body. The largest component stays.
+/// Removes components that lie flat on the data: the winding number may be above one half between the two
+/// sides of a floor. The largest component stays.
 void drop_flat_components(RebuiltSurface& out) {
   const Components components = connected_components(out.mesh);
   std::vector<double> volume(components.area.size());

@@ -14,7 +14,7 @@ using geometry::Vec3;
 
 /// An upright cylinder with an elliptical cross-section, between two levels.
 struct Curtain {
-  Vec3 middle;  ///< of the cross-section; its level is not used
+  Vec3 middle;  ///< a point on the axis
   double half_width_m, half_depth_m, low_m, high_m;
 
   double distance(const Vec3& p) const {
@@ -25,12 +25,6 @@ struct Curtain {
 };
 
 }  // namespace
-
-void Solid::add(const Solid& other) {
-  distance = [a = std::move(distance), b = other.distance](const Vec3& p) { return std::min(a(p), b(p)); };
-  box.low = box.low.cwiseMin(other.box.low);
-  box.high = box.high.cwiseMax(other.box.high);
-}
 
 Solid hair_in_a_bun(const Body& body, engine::Random& random) {
   const double back = random.uniform(0.0, 1.0), radius_m = random.uniform(0.04, 0.06);

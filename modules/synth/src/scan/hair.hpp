@@ -2,19 +2,11 @@
 #pragma once
 
 #include <bodice/engine/random.hpp>
-#include <bodice/geometry/contour.hpp>
 #include <bodice/synth/body.hpp>
 
+#include "scan/solid.hpp"
+
 namespace bodice::inline v0_1::synth {
-
-/// A solid around which a scan's surface is put.
-struct Solid {
-  geometry::DistanceField distance;
-  geometry::Box box;  ///< contains the solid; empty for one that lies within another's box
-
-  /// Adds another solid.
-  void add(const Solid& other);
-};
 
 /// A bun of random size, from a knot on top of the head to one low at its back. Precondition of both: the
 /// head is upright and faces +z.

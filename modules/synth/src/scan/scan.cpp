@@ -16,6 +16,7 @@
 #include "scan/hair.hpp"
 #include "scan/pieces.hpp"
 #include "scan/props.hpp"
+#include "scan/solid.hpp"
 
 namespace bodice::inline v0_1::synth {
 namespace {
@@ -35,18 +36,6 @@ DistanceField hem(const DistanceField& skin, double level_m) {
     const double trunk = std::hypot(p.x(), p.z()) - 0.24;
     return std::max(band, trunk);
   };
-}
-
-/// Boxes as one solid.
-Solid solid_of(const std::vector<Box>& boxes) {
-  Solid solid;
-  for (const Box& b : boxes) solid.box.extend(b.low), solid.box.extend(b.high);
-  solid.distance = [boxes](const Vec3& p) {
-    double least = 1e9;
-    for (const Box& b : boxes) least = std::min(least, distance_to_box(b, p));
-    return least;
-  };
-  return solid;
 }
 
 /// Makes one scan, in the body's own coordinates until the end.
