@@ -6,6 +6,7 @@
 #include <bodice/synth/scan.hpp>
 #include <bodice_test/share_near.hpp>
 
+#include "analyze/tips_of_skin.hpp"
 #include "analyzed.hpp"
 #include "made.hpp"
 
@@ -68,8 +69,14 @@ TEST_CASE("hair that stands off the neck is named and moves no landmark, a bare 
   CHECK(thick == 3);
 }
 
-TEST_CASE("a nape without a hollow on the thin copy alone is not named") {
-  const auto scan = synth::make_scan({}, synth::ScanKind::kFused, 460007);
-  REQUIRE(scan.ok());
-  CHECK(!names_nape(analyzed(made::skin_of(*scan))));
+TEST_CASE("a covered nape of a thin copy counts only where the skin shows it") {
+  anatomy::Anatomy without, with;
+  without.landmarks.resize(kMainLandmarks);
+  with = without;
+  with.warnings.push_back({"nape-covered", "head", "", ""});
+  anatomy::Anatomy on_copy = with;
+  anatomy::take_tips(with, on_copy);
+  CHECK(names_nape(on_copy));
+  anatomy::take_tips(without, on_copy);
+  CHECK(!names_nape(on_copy));
 }
