@@ -34,7 +34,7 @@ class Body:
     Attributes: `stature` (meters, as if the body stood upright), `hash` (of its geometry), `joints` (names of those that
     it is bound to, in the order of pose()), `part_names`. len() is the number of ellipsoids."""
 
-    part_names: Tuple[str, ...] = tuple(_c.library.bodice_part_name(i).decode() for i in range(_c.ALL_PARTS))
+    part_names: Tuple[str, ...] = _c.names_of(_c.library.bodice_part_name)
 
     def __init__(self, data: bytes, workers: int = 1):
         context = _c.make_context(workers)

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import ctypes
 import ctypes.util
+import itertools
 import os
 import pathlib
 from ctypes import c_double, c_int32, c_size_t, c_uint32, c_void_p
+from typing import Callable, Optional, Tuple
 
 import numpy as np
 
@@ -63,6 +65,11 @@ def _build() -> str:
     except AttributeError:
         raise ImportError(f"{library._name} is no library of bodice. Name libbodice.so in BODICE_LIBRARY.") from None
     return library.bodice_build().decode()
+
+
+def names_of(name: Callable[[int], Optional[bytes]]) -> Tuple[str, ...]:
+    """The names that a function of the library has for 0, 1, 2 and so on, up to the first number without one."""
+    return tuple(known.decode() for known in iter(map(name, itertools.count()).__next__, None))
 
 
 library = _open()

@@ -172,30 +172,30 @@ class Skin:
         vertex = self.vertex_of_input
         return np.where(vertex < 0, 255, part[vertex]).astype(np.uint8)
 
-    def _landmarks(self) -> np.ndarray:
-        out = np.zeros(_c.LANDMARKS, _c.LANDMARK)
+    def _landmarks(self) -> Dict[str, np.void]:
+        names = _c.names_of(_c.library.bodice_landmark_name)
+        out = np.zeros(len(names), _c.LANDMARK)
         _c.check(_c.library.bodice_skin_get_landmarks(self._skin, out.ctypes.data, len(out)))
-        return out
+        return dict(zip(names, out))
 
     @property
     def landmarks(self) -> Dict[str, np.ndarray]:
         """Position (3,) of each landmark that was found, by name, such as "elbow_l"."""
-        return {_c.library.bodice_landmark_name(i).decode(): mark["position"].copy()
-                for i, mark in enumerate(self._landmarks()) if mark["confidence"] > 0.0}
+        return {name: mark["position"].copy() for name, mark in self._landmarks().items() if mark["confidence"] > 0.0}
 
     @property
     def confidence(self) -> Dict[str, float]:
         """Confidence of each landmark, from 0 (not found) to 1."""
-        return {_c.library.bodice_landmark_name(i).decode(): float(mark["confidence"])
-                for i, mark in enumerate(self._landmarks())}
+        return {name: float(mark["confidence"]) for name, mark in self._landmarks().items()}
 
     @property
     def measurements(self) -> Dict[str, float]:
         """Measurements for garments by name, meters and radians, NaN where one could not be taken.
         modules/anatomy/MEASUREMENTS.md defines them."""
-        out = np.empty(_c.MEASUREMENTS)
+        names = _c.names_of(_c.library.bodice_measurement_name)
+        out = np.empty(len(names))
         _c.check(_c.library.bodice_skin_get_measurements(self._skin, out.ctypes.data, len(out)))
-        return {_c.library.bodice_measurement_name(i).decode(): float(value) for i, value in enumerate(out)}
+        return dict(zip(names, map(float, out)))
 
     def fit(self, tier: Optional[str] = None, *, target_error: Optional[float] = None,
             max_ellipsoids: Optional[int] = None, budget_us: Optional[float] = None,

@@ -8,9 +8,6 @@ from ctypes import c_double, c_float, c_int32, c_size_t, c_ssize_t, c_uint32, c_
 import numpy as np
 
 PARTS = 15
-ALL_PARTS = 31
-LANDMARKS = 28
-MEASUREMENTS = 26
 NO_ELLIPSOID = 0xFFFFFFFF
 ABI = 1
 
