@@ -40,13 +40,14 @@ enum class LandmarkId : std::uint8_t {
   kAnkleR,
 };
 
-inline constexpr int kLandmarkCount = 28;
+/// A name for each value of LandmarkId, in the same order.
+inline constexpr auto kLandmarkNames = std::to_array<std::string_view>(
+    {"crown",     "neck",        "fingertip_l", "fingertip_r", "elbow_l",    "elbow_r", "armpit_l",
+     "armpit_r",  "perineum",    "knee_l",      "knee_r",      "toe_l",      "toe_r",   "neck_front",
+     "neck_back", "neck_side_l", "neck_side_r", "shoulder_l",  "shoulder_r", "bust_l",  "bust_r",
+     "underbust", "waist",       "hip",         "wrist_l",     "wrist_r",    "ankle_l", "ankle_r"});
 
-inline constexpr std::array<std::string_view, kLandmarkCount> kLandmarkNames = {
-    "crown",     "neck",        "fingertip_l", "fingertip_r", "elbow_l",    "elbow_r", "armpit_l",
-    "armpit_r",  "perineum",    "knee_l",      "knee_r",      "toe_l",      "toe_r",   "neck_front",
-    "neck_back", "neck_side_l", "neck_side_r", "shoulder_l",  "shoulder_r", "bust_l",  "bust_r",
-    "underbust", "waist",       "hip",         "wrist_l",     "wrist_r",    "ankle_l", "ankle_r"};
+inline constexpr int kLandmarkCount = static_cast<int>(kLandmarkNames.size());
 
 /// The name of a landmark in files and messages, such as "fingertip_l".
 constexpr std::string_view name(LandmarkId id) {
