@@ -119,8 +119,8 @@ list(FILTER promised INCLUDE REGEX "^BODICE_STABLE")
 print_layout(promised stable "${stable}" ${promised})
 file(READ "${ABI}" written)
 if(NOT now STREQUAL written)
-  message(SEND_ERROR "the binary interface is not that of ${ABI}: see ${SCRATCH}/abi.txt. Members and functions may be "
-                     "added; for any other change raise BODICE_ABI. Then copy the file.")
+  message(SEND_ERROR "the binary interface is not that of ${ABI}. Copy ${SCRATCH}/abi.txt there if members or functions "
+                     "were added, or if what changed is experimental. For any other change raise BODICE_ABI first.")
 endif()
 
 # What an ABI has promised stays as long as the ABI has its number: FROZEN is never copied, it only gets new lines.
