@@ -1,4 +1,4 @@
-// A file is what its content is, whatever its name, and what has none of the six formats is read by nothing.
+// A file is what its content is, whatever its name, and what has none of the mesh formats is read by nothing.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -38,8 +38,8 @@ void check_unknown(const std::filesystem::path& file) {
   const auto result = io::import_body({}, file);
   REQUIRE(!result.ok());
   CHECK(result.error().code == engine::ErrorCode::kUnreadable);
-  CHECK(result.error().message == "'" + file.string() + "' holds no OBJ, PLY, STL, glTF 2, FBX or Collada.");
-  CHECK(result.error().remedy == "Export it again as OBJ, PLY, STL, glTF, FBX or Collada.");
+  CHECK(result.error().message == "'" + file.string() + "' holds no " + std::string(io::kMeshFormats) + ".");
+  CHECK(result.error().remedy == "Export it again as " + std::string(io::kMeshFormats) + ".");
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ TEST_CASE("a real block figure in IQM is refused, because its reader is not prom
   if (file) check_unknown(*file);
 }
 
-TEST_CASE("no file of Debian's model collection crashes or hangs, and only its six formats are read") {
+TEST_CASE("no file of Debian's model collection crashes or hangs, and only the mesh formats are read") {
   const std::filesystem::path models = "/usr/share/assimp/models";
   if (!std::filesystem::exists(models)) {
     MESSAGE("skipped: package assimp-testmodels is not installed");

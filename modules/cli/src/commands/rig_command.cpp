@@ -123,7 +123,7 @@ void add_rig_command(CLI::App& app, int& exit_code) {
   auto command = std::make_shared<RigCommand>();
   CLI::App* sub =
       app.add_subcommand("rig", "Give a body a skeleton, skin weights and motions, as skinned GLB");
-  add_body_option(*sub, command->common, "body mesh in any pose: OBJ, PLY, STL, glTF/GLB, FBX, DAE");
+  add_body_option(*sub, command->common, "body mesh in any pose");
   sub->add_option("-o,--output", command->output, "where the rigged body goes, .glb: meters, y up")
       ->check(not_empty())
       ->capture_default_str();

@@ -232,12 +232,14 @@ void add_run_options(CLI::App& command, CommonOptions& o) {
 }
 
 CLI::Option* add_body_option(CLI::App& command, CommonOptions& o, const std::string& help) {
-  return command.add_option("BODY", o.body, help + " (default: the built-in body)")
+  return command
+      .add_option("BODY", o.body,
+                  help + ": " + std::string(io::kMeshFormats) + " (default: the built-in body)")
       ->check(not_empty("leave it out for the built-in body"));
 }
 
 void add_common_options(CLI::App& command, CommonOptions& o) {
-  add_body_option(command, o, "body mesh: OBJ, PLY, STL, glTF/GLB, FBX, DAE");
+  add_body_option(command, o, "body mesh");
   add_fit_options(command, o);
   add_input_options(command, o);
   add_builtin_options(command, o);

@@ -44,6 +44,7 @@ struct CommonOptions {
 
 /// Adds the shared options to a subcommand, grouped as its help shows them.
 void add_common_options(CLI::App& command, CommonOptions& options);
+/// `help` states what the body is for; the formats of its file and the default follow.
 CLI::Option* add_body_option(CLI::App& command, CommonOptions& options, const std::string& help);
 /// Adds options that refer to BODY, which has to be added before.
 void add_input_options(CLI::App& command, CommonOptions& options);

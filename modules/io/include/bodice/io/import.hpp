@@ -1,5 +1,5 @@
-// Reading mesh files: OBJ, PLY, STL, glTF 2, FBX and Collada, by their content. The body is chosen among the
-// meshes, its unit and axes are found, and its vertices are welded.
+// Reading mesh files of any format in kMeshFormats, by their content. The body is chosen among the meshes,
+// its unit and axes are found, and its vertices are welded.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <bodice/engine/context.hpp>
@@ -15,6 +16,9 @@
 #include <bodice/geometry/mesh_repair.hpp>
 
 namespace bodice::inline v0_1::io {
+
+/// The formats of mesh files that are read, as messages and helps name them.
+inline constexpr std::string_view kMeshFormats = "OBJ, PLY, STL, glTF 2, FBX or Collada";
 
 /// How a garment looks: the materials, images and texture coordinates of its file, and its name. It is made
 /// by import_garment() and used by write_glb() for a mesh with the same triangles.

@@ -30,8 +30,7 @@ MeshLook LookReader::of(const aiMesh& mesh, const NodeMesh& from,
 }
 
 bool has_materials(const std::filesystem::path& file, Format format) {
-  if (format == Format::kPly || format == Format::kStl) return false;
-  if (format != Format::kObj) return true;
+  if (format != Format::kObj) return traits_of(format).has_materials;
   return std::ranges::any_of(material_libraries(file), [](const std::filesystem::path& library) {
     std::error_code error;
     return std::filesystem::is_regular_file(library, error);

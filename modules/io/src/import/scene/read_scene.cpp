@@ -7,6 +7,8 @@
 #include <assimp/scene.h>
 #include <Eigen/Geometry>
 
+#include <bodice/io/import.hpp>
+
 #include "import/scene/bind_pose.hpp"
 #include "import/scene/file_scene.hpp"
 #include "import/scene/gltf_rig.hpp"
@@ -139,20 +141,9 @@ const aiScene* parse(AssimpReader& reader, const std::filesystem::path& file, Ve
   return reader.read(file);
 }
 
-/// Whether assimp's reader of a format crashes on some damaged files: of 5.2.5 those of Collada and glTF do,
-/// by null pointers and by assertions. That of FBX is built alike.
-bool may_crash(Format format) {
-  return format != Format::kObj && format != Format::kPly && format != Format::kStl;
+std::string remedy() {
+  return "Export it again as " + std::string(kMeshFormats) + ".";
 }
-
-/// Whether the format indexes positions apart from normals and textures: assimp makes a vertex of each
-/// corner.
-bool splits_vertices(Format format) {
-  return format == Format::kObj || format == Format::kCollada || format == Format::kColladaArchive ||
-         format == Format::kFbx;
-}
-
-constexpr const char* kRemedy = "Export it again as OBJ, PLY, STL, glTF, FBX or Collada.";
 
 engine::Error unreadable(const std::filesystem::path& file, std::string_view why) {
   std::string reason(why.substr(0, why.find('\n')));
@@ -162,7 +153,7 @@ engine::Error unreadable(const std::filesystem::path& file, std::string_view why
     if (static_cast<unsigned char>(c) < 32 || static_cast<unsigned char>(c) > 126) c = '?';
   return {engine::ErrorCode::kUnreadable,
           "'" + file.string() + "' cannot be read as a mesh" + (reason.empty() ? "." : " (" + reason + ")."),
-          kRemedy};
+          remedy()};
 }
 
 /// The processor time that a reader may take: seconds at least, and bytes for each further one. FBX takes a
@@ -172,7 +163,7 @@ constexpr std::uintmax_t kBytesPerSecond = 1'000'000;
 
 /// Refuses a file that assimp does not survive.
 engine::Result<void> check_survives(const std::filesystem::path& file, Format format) {
-  if (!may_crash(format)) return {};
+  if (traits_of(format).survives_damage) return {};
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   const auto most_s = kLeast_s + (error ? 0u : static_cast<unsigned>(size / kBytesPerSecond));
@@ -192,10 +183,10 @@ engine::Result<Format> known_format(const std::filesystem::path& file) {
   const Format format = format_of(file);
   if (format != Format::kUnknown && format != Format::kBvh) return format;
   return engine::Error{engine::ErrorCode::kUnreadable,
-                       "'" + file.string() +
-                           (format == Format::kBvh ? "' is a BVH file, which holds a motion and no mesh."
-                                                   : "' holds no OBJ, PLY, STL, glTF 2, FBX or Collada."),
-                       kRemedy};
+                       "'" + file.string() + "' " +
+                           (format == Format::kBvh ? "is a BVH file, which holds a motion and no mesh."
+                                                   : "holds no " + std::string(kMeshFormats) + "."),
+                       remedy()};
 }
 
 bool is_gltf(Format format) {
@@ -249,7 +240,7 @@ engine::Result<FileScene> read_motion_scene(const std::filesystem::path& file, L
   collector.collect();
   for (FileMesh& mesh : result.meshes)
     if (is_made_up(mesh.name)) mesh.name = file.stem().string();
-  if (splits_vertices(*format))
+  if (traits_of(*format).splits_vertices)
     for (FileMesh& mesh : result.meshes) share_vertices(mesh);
   return result;
 }

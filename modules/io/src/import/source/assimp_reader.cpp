@@ -38,7 +38,8 @@ class Renamed final : public Assimp::DefaultIOSystem {
 AssimpReader::AssimpReader(Format format) : format_(format) {
   std::vector<Assimp::BaseImporter*> others;
   for (std::size_t i = 0; i < importer_.GetImporterCount(); ++i)
-    if (reader_of(format) != importer_.GetImporterInfo(i)->mName) others.push_back(importer_.GetImporter(i));
+    if (traits_of(format).reader != importer_.GetImporterInfo(i)->mName)
+      others.push_back(importer_.GetImporter(i));
   for (Assimp::BaseImporter* other : others) {
     importer_.UnregisterLoader(other);  // it is the caller's from here on
     delete other;
@@ -46,7 +47,7 @@ AssimpReader::AssimpReader(Format format) : format_(format) {
 }
 
 const aiScene* AssimpReader::read(const std::filesystem::path& file) {
-  const std::string extension = "." + std::string(extension_of(format_));
+  const std::string extension = "." + std::string(traits_of(format_).extension);
   const std::string name = file.string(), alias = name + extension;
   if (file.extension() == extension) return importer_.ReadFile(name, kNoSteps);
   importer_.SetIOHandler(new Renamed(alias, name));  // the importer deletes it
@@ -55,7 +56,7 @@ const aiScene* AssimpReader::read(const std::filesystem::path& file) {
 
 const aiScene* AssimpReader::read_text(const std::string& text) {
   return importer_.ReadFileFromMemory(text.data(), text.size(), kNoSteps,
-                                      std::string(extension_of(format_)).c_str());
+                                      std::string(traits_of(format_).extension).c_str());
 }
 
 }  // namespace bodice::io

@@ -25,30 +25,35 @@ constexpr std::size_t kEdge = 1 << 16;
 constexpr int kObjLines = 400;
 constexpr double kObjShare = 0.5;
 
-/// What is known of a format but for its mark: the usual extension, and assimp's name of the reader, empty
-/// where assimp is not to read it.
-struct Traits {
-  Format format;
-  std::string_view extension, reader;
-};
-
-constexpr Traits kTraits[] = {{Format::kUnknown, "", ""},
-                              {Format::kObj, "obj", "Wavefront Object Importer"},
-                              {Format::kPly, "ply", "Stanford Polygon Library (PLY) Importer"},
-                              {Format::kStl, "stl", "Stereolithography (STL) Importer"},
-                              {Format::kGltf, "gltf", "glTF2 Importer"},
-                              {Format::kGlb, "glb", "glTF2 Importer"},
-                              {Format::kFbx, "fbx", "Autodesk FBX Importer"},
-                              {Format::kCollada, "dae", "Collada Importer"},
-                              {Format::kColladaArchive, "zae", "Collada Importer"},
-                              {Format::kBvh, "bvh", ""}};
-
-/// The row of a format; a format without one is unknown.
-const Traits& traits_of(Format format) {
-  const auto row = std::find_if(std::begin(kTraits), std::end(kTraits),
-                                [&](const Traits& traits) { return traits.format == format; });
-  return row != std::end(kTraits) ? *row : kTraits[0];
-}
+// Formats that index positions apart from normals and textures have their vertices split. Of assimp 5.2.5 the
+// readers of Collada and glTF crash on some damaged files, by null pointers and by assertions. That of FBX is
+// built alike, so that a format counts as dangerous unless its row states otherwise.
+constexpr FormatTraits kTraits[] = {
+    {},
+    {.format = Format::kObj,
+     .extension = "obj",
+     .reader = "Wavefront Object Importer",
+     .survives_damage = true,
+     .splits_vertices = true},
+    {.format = Format::kPly,
+     .extension = "ply",
+     .reader = "Stanford Polygon Library (PLY) Importer",
+     .survives_damage = true,
+     .has_materials = false},
+    {.format = Format::kStl,
+     .extension = "stl",
+     .reader = "Stereolithography (STL) Importer",
+     .survives_damage = true,
+     .has_materials = false},
+    {.format = Format::kGltf, .extension = "gltf", .reader = "glTF2 Importer"},
+    {.format = Format::kGlb, .extension = "glb", .reader = "glTF2 Importer"},
+    {.format = Format::kFbx, .extension = "fbx", .reader = "Autodesk FBX Importer", .splits_vertices = true},
+    {.format = Format::kCollada, .extension = "dae", .reader = "Collada Importer", .splits_vertices = true},
+    {.format = Format::kColladaArchive,
+     .extension = "zae",
+     .reader = "Collada Importer",
+     .splits_vertices = true},
+    {.format = Format::kBvh, .extension = "bvh"}};
 
 struct Content {
   std::string head, tail;
@@ -158,12 +163,9 @@ Format format_of(const std::filesystem::path& file) {
   return format_of_text(plain_text(content.head), content.tail);
 }
 
-std::string_view extension_of(Format format) {
-  return traits_of(format).extension;
-}
-
-std::string_view reader_of(Format format) {
-  return traits_of(format).reader;
+const FormatTraits& traits_of(Format format) {
+  const auto row = std::ranges::find(kTraits, format, &FormatTraits::format);
+  return row != std::end(kTraits) ? *row : kTraits[0];
 }
 
 }  // namespace bodice::io
