@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 #include <bodice_test/allocations.hpp>
 #include <bodice_test/executors.hpp>
+#include <bodice_test/responses.hpp>
 
 #include <algorithm>
 #include <functional>
@@ -192,7 +193,8 @@ TEST_CASE("sleep: particles follow pins that begin to move slowly, and a new vel
 TEST_CASE("pins: cloth around a pin inside the body stays at rest, for any number of substeps") {
   const TriMesh mesh = sheet(4, 4, 0.4, 0.4, Vec3(-0.2, 0.098, -0.2));
   const std::vector<Index> middle = {12};  // 2 mm inside a ball that no other particle of the sheet touches
-  for (const auto response : {collision::Response::kClosestPoint, collision::Response::kPaper}) {
+  for (const auto& [name, response] : bodice_test::kResponses) {
+    CAPTURE(name);
     const collision::Collider body = ellipsoid_body(Vec3::Zero(), Vec3::Constant(0.1));
     for (const int substeps : {2, 8, 32, 128}) {
       cloth::SolverOptions options = vacuum();

@@ -3,6 +3,8 @@
 
 #include <numeric>
 
+#include <bodice_test/responses.hpp>
+
 #include "scenes.hpp"
 
 using namespace bodice;
@@ -207,7 +209,8 @@ TEST_CASE("velocities and safe positions count only if all three of their arrays
   collider.resolve({}, bare, {});
   std::vector<Contact> contacts(cloud.size());
   for (int given = 1; given < 7; ++given) {
-    for (const Response response : {Response::kClosestPoint, Response::kPaper}) {
+    for (const auto& [name, response] : bodice_test::kResponses) {
+      CAPTURE(name);
       Cloud now = cloud;
       Particles some = now.particles();
       if (!(given & 1)) some.vx = nullptr, some.safe_x = nullptr;

@@ -5,6 +5,7 @@
 #include <bodice/proxy/proxy_distance.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 #include <bodice_test/extremes.hpp>
+#include <bodice_test/responses.hpp>
 
 #include "rows.hpp"
 
@@ -13,6 +14,7 @@ namespace {
 
 using namespace bodice;
 using bodice_test::EllipsoidCase;
+using bodice_test::leaves_none_inside;
 using geometry::Ellipsoid;
 using geometry::Vec3;
 
@@ -87,7 +89,7 @@ std::string check_resolve(const EllipsoidCase& c, collision::Response response) 
   Cloud cloud(bodice_test::hostile_queries(c.shape), collider.origin());
   const auto report = collider.resolve({}, cloud.particles(), {.response = response});
   if (report.not_finite != 0) return "finite particles were left alone";
-  if (response == collision::Response::kClosestPoint && report.unresolved != 0) return "unresolved";
+  if (leaves_none_inside(response) && report.unresolved != 0) return "unresolved";
   for (std::size_t i = 0; i < cloud.x.size(); ++i) {
     const Vec3 p = cloud.at(i, collider.origin());
     if (!p.allFinite() || !std::isfinite(cloud.vx[i] + cloud.vy[i] + cloud.vz[i])) return "not finite";
@@ -113,10 +115,9 @@ std::vector<Row> ellipsoid_rows() {
   for (const EllipsoidCase& c : bodice_test::extreme_ellipsoids()) {
     rows.push_back({"closest_point (double)", c.name, [&c] { return check_nearest(c); }});
     rows.push_back({"Collider::query (float)", c.name, [&c] { return check_query(c); }});
-    rows.push_back({"Collider::resolve, nearest", c.name,
-                    [&c] { return check_resolve(c, collision::Response::kClosestPoint); }});
-    rows.push_back(
-        {"Collider::resolve, paper", c.name, [&c] { return check_resolve(c, collision::Response::kPaper); }});
+    for (const auto& [name, response] : bodice_test::kResponses)
+      rows.push_back({std::string("Collider::resolve, ") + name, c.name,
+                      [&c, response] { return check_resolve(c, response); }});
     rows.push_back({"proxy file", c.name, [&c] { return check_file(c); }});
   }
   return rows;

@@ -9,6 +9,7 @@
 #include <bodice/collision/collider.hpp>
 #include <bodice/engine/random.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
+#include <bodice_test/responses.hpp>
 
 #include "rows.hpp"
 
@@ -16,6 +17,7 @@ namespace extremes {
 namespace {
 
 using namespace bodice;
+using bodice_test::leaves_none_inside;
 using geometry::Ellipsoid;
 using geometry::Vec3;
 
@@ -226,12 +228,12 @@ std::string check_resolve(const Union& u, collision::Response response, double d
   const auto report = collider.resolve({}, cloud.particles(), {.response = response});
   if (u.shapes.empty()) return expect(report.contacts == 0, "contacts without ellipsoids");
   if (report.not_finite != 2) return "counted " + std::to_string(report.not_finite) + " as not finite";
-  if (response == collision::Response::kClosestPoint && report.unresolved != 0) return "unresolved";
+  if (leaves_none_inside(response) && report.unresolved != 0) return "unresolved";
   for (std::size_t i = 0; i < cloud.x.size(); ++i) {
     if (i == 2 || i == 3) continue;
     const Vec3 p = cloud.at(i, collider.origin());
     if (!p.allFinite() || !std::isfinite(cloud.vx[i] + cloud.vy[i] + cloud.vz[i])) return "not finite";
-    if (response == collision::Response::kPaper) continue;  // it leaves particles inside, and counts them
+    if (!leaves_none_inside(response)) continue;
     const double depth = -proxy::proxy_distance(proxy, p).distance;
     if (depth > tolerance_m(u)) return "still inside by " + std::to_string(depth / u.size_m) + " sizes";
   }
@@ -259,10 +261,9 @@ std::vector<Row> scene_rows() {
     rows.push_back({"Collider::query", u.name, [&u] { return check_query(u); }});
     rows.push_back({"Collider::query, to first order", u.name, [&u] { return check_first_order(u); }});
     rows.push_back({"Collider, 0 and 1 particle", u.name, [&u] { return check_one(u); }});
-    rows.push_back({"Collider::resolve, nearest", u.name,
-                    [&u] { return check_resolve(u, Response::kClosestPoint, -1.0); }});
-    rows.push_back(
-        {"Collider::resolve, paper", u.name, [&u] { return check_resolve(u, Response::kPaper, -1.0); }});
+    for (const auto& [name, response] : bodice_test::kResponses)
+      rows.push_back({std::string("Collider::resolve, ") + name, u.name,
+                      [&u, response] { return check_resolve(u, response, -1.0); }});
     for (const double dt_s : {0.0, 1.0})
       rows.push_back({"move_to and resolve, dt " + std::to_string(dt_s) + " s", u.name,
                       [&u, dt_s] { return check_resolve(u, Response::kClosestPoint, dt_s); }});
