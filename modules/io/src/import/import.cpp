@@ -91,6 +91,45 @@ struct ReadBody {
   FileWeights weights;  // of the input vertices
 };
 
+/// A skin in the file's coordinates, and the noise that its scan had, in the file's unit.
+struct FoundSkin {
+  geometry::RepairedMesh repaired;
+  double noise = 0.0;
+};
+
+/// Repairs what was chosen and refines and closes it. A skin with weights stays as repaired: they are those
+/// of its vertices.
+engine::Result<FoundSkin> find_skin(const engine::Context& context, const ImportOptions& options,
+                                    ChosenBody& chosen, bool has_weights, ImportedMesh& out) {
+  auto repaired = chosen.repaired ? engine::Result<geometry::RepairedMesh>(std::move(*chosen.repaired))
+                                  : geometry::repair(context, chosen.shape);
+  if (!repaired) return repaired.error();
+  FoundSkin skin{std::move(*repaired)};
+  if (has_weights) return skin;
+  if (options.shape != Shape::kAny) {
+    const auto noise = refine_scan(context, options, skin.repaired, out.warnings);
+    if (!noise) return noise.error();
+    skin.noise = *noise;
+  }
+  out.smoothed = skin.noise > 0.0 && !options.keep_noise;
+  if (auto closed = close_skin(context, chosen.shape, skin.repaired)) {
+    skin.repaired = std::move(closed->repaired);
+    out.made_up = std::move(closed->made_up);
+  }
+  return skin;
+}
+
+/// Finds unit and axes of the file by its skin.
+void find_frame(const ImportOptions& options, const FileScene& scene, const geometry::TriMesh& skin,
+                ImportedMesh& out) {
+  const auto find = options.shape == Shape::kAny ? frame_of_thing : detect_frame;
+  DetectedFrame detected = find(skin, options, scene.meters_per_unit, scene.up);
+  out.frame = detected.frame;
+  out.unit = std::move(detected.unit);
+  out.up_found_by_extents = detected.up_found_by_extents;
+  append_warnings(std::move(detected.warnings), out.warnings);
+}
+
 engine::Result<ReadBody> read_body_now(const engine::Context& context, const std::filesystem::path& file,
                                        const ImportOptions& options) {
   ReadBody read;
@@ -102,9 +141,8 @@ engine::Result<ReadBody> read_body_now(const engine::Context& context, const std
   load.stop();
 
   engine::StageTimer check(context, out.stages, "check");
-  const bool any = options.shape == Shape::kAny;
-  auto chosen =
-      any ? choose_all(*scene, options.mesh) : choose_body(context, *scene, options.mesh, options.person);
+  auto chosen = options.shape == Shape::kAny ? choose_all(*scene, options.mesh)
+                                             : choose_body(context, *scene, options.mesh, options.person);
   if (!chosen) return in_file(chosen.error(), file);
   out.shape = options.shape;
   out.mesh = chosen->name;
@@ -112,37 +150,17 @@ engine::Result<ReadBody> read_body_now(const engine::Context& context, const std
   out.input_vertices = chosen->shape.positions.size();
   out.input_triangles = chosen->shape.triangles.size();
 
-  auto repaired = chosen->repaired ? engine::Result<geometry::RepairedMesh>(std::move(*chosen->repaired))
-                                   : geometry::repair(context, chosen->shape);
-  if (!repaired) return in_file(repaired.error(), file);
-  // A skin with weights stays as it is: they are those of its vertices.
-  double noise = 0.0;
-  if (!scene->rig.has_bones) {
-    if (!any) {
-      const auto found = refine_scan(context, options, *repaired, out.warnings);
-      if (!found) return in_file(found.error(), file);
-      noise = *found;
-    }
-    out.smoothed = noise > 0.0 && !options.keep_noise;
-    if (auto closed = close_skin(context, chosen->shape, *repaired)) {
-      *repaired = std::move(closed->repaired);
-      out.made_up = std::move(closed->made_up);
-    }
-  }
-  DetectedFrame detected =
-      (any ? frame_of_thing : detect_frame)(repaired->mesh, options, scene->meters_per_unit, scene->up);
-  out.frame = detected.frame;
-  out.unit = std::move(detected.unit);
-  out.up_found_by_extents = detected.up_found_by_extents;
-  append_warnings(std::move(detected.warnings), out.warnings);
+  auto skin = find_skin(context, options, *chosen, scene->rig.has_bones, out);
+  if (!skin) return in_file(skin.error(), file);
+  find_frame(options, *scene, skin->repaired.mesh, out);
   check_precision(chosen->shape, scene->kept_digits, out);
-  out.noise_m = noise * out.frame.meters_per_unit;
+  out.noise_m = skin->noise * out.frame.meters_per_unit;
   warn_of_noise(out);
 
-  out.skin = std::move(repaired->mesh);
+  out.skin = std::move(skin->repaired.mesh);
   to_inside(out.frame, out.skin);
-  out.vertex_of_input = std::move(repaired->vertex_of_input);
-  out.repair = std::move(repaired->report);
+  out.vertex_of_input = std::move(skin->repaired.vertex_of_input);
+  out.repair = std::move(skin->repaired.report);
   append_warnings(out.repair.warnings, out.warnings);
   check.stop();
   read.rig = std::move(scene->rig);
