@@ -102,6 +102,33 @@ Result<fitting::FitResult> fit_parts(const Context& context, const SegmentedSkin
   return fit;
 }
 
+/// Publishes one ellipsoid a part: the first proxy.
+Result<void> publish_coarse(const Context& context, const Skin& skin, std::uint32_t parts,
+                            Publisher& publisher) {
+  auto enclosed = fitting::enclose_parts(context, labeled(*skin), parts);
+  if (!enclosed) return with_body_name(std::move(enclosed).error(), skin->input);
+  publisher.begin(skin);
+  if (auto published = publisher.publish(context, *enclosed); !published)
+    return with_body_name(std::move(published).error(), skin->input);
+  return {};
+}
+
+/// Publishes solid ellipsoids, part by part: they take a tenth of a second and have no leaks.
+Result<void> publish_solid_parts(const Context& context, const PreparationOptions& options,
+                                 const SegmentedSkin& skin, std::uint32_t parts, Publisher& publisher) {
+  if (options.fit.tier.value_or(proxy::Tier::kRelief) <= proxy::Tier::kSolid) return {};
+  // The limits of the final fit hold for solid ellipsoids as well, because earlier frames have no more time
+  // than later ones.
+  auto fit = fit_parts(context, skin,
+                       {.tier = proxy::Tier::kSolid,
+                        .max_ellipsoids = options.fit.max_ellipsoids,
+                        .budget_us = options.fit.budget_us,
+                        .measure_accuracy = false},
+                       parts, publisher);
+  if (!fit) return std::move(fit).error();
+  return {};
+}
+
 using Options = std::shared_ptr<const PreparationOptions>;
 
 /// Adds the tasks from a source to a segmented skin, which gets a rig if proxies are to be bound.
@@ -151,30 +178,14 @@ Result<Preparation> Preparation::make(PreparationOptions options, OnProxy on_pro
       "region", [set](const Context& c, const Skin& on) { return choose_region(c, *set, *on); }, *skin);
   auto coarse = builder.add(
       "coarse proxy",
-      [publisher](const Context& c, const Skin& on, const std::uint32_t& parts) -> Result<void> {
-        auto enclosed = fitting::enclose_parts(c, labeled(*on), parts);
-        if (!enclosed) return with_body_name(std::move(enclosed).error(), on->input);
-        publisher->begin(on);
-        if (auto published = publisher->publish(c, *enclosed); !published)
-          return with_body_name(std::move(published).error(), on->input);
-        return {};
+      [publisher](const Context& c, const Skin& on, const std::uint32_t& parts) {
+        return publish_coarse(c, on, parts, *publisher);
       },
       *skin, region);
-  // Solid ellipsoids come next, part by part: they take a tenth of a second and have no leaks.
   auto solid = builder.add(
       "solid parts",
-      [set, publisher](const Context& c, const Skin& on, const std::uint32_t& parts) -> Result<void> {
-        if (set->fit.tier.value_or(proxy::Tier::kRelief) <= proxy::Tier::kSolid) return {};
-        // The limits of the final fit hold for solid ellipsoids as well, because earlier frames have no more
-        // time than later ones.
-        auto fit = fit_parts(c, *on,
-                             {.tier = proxy::Tier::kSolid,
-                              .max_ellipsoids = set->fit.max_ellipsoids,
-                              .budget_us = set->fit.budget_us,
-                              .measure_accuracy = false},
-                             parts, *publisher);
-        if (!fit) return std::move(fit).error();
-        return {};
+      [set, publisher](const Context& c, const Skin& on, const std::uint32_t& parts) {
+        return publish_solid_parts(c, *set, *on, parts, *publisher);
       },
       *skin, region);
   auto proxy = builder.add(

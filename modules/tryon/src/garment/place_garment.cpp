@@ -188,6 +188,41 @@ std::vector<Candidate> candidates(const PlacementTest& test) {
   return all;
 }
 
+/// The garment in its own unit and axes, moved onto the body. Heights are mostly right, and a skirt, which is
+/// a cone, would slide up, so that shifts along the floor come first.
+std::optional<Candidate> moved_onto_body(const PlacementTest& test) {
+  if (!test.has_size(1.0, kLeastSize)) return std::nullopt;
+  for (const Vec3& free : {Vec3(1.0, 0.0, 1.0), Vec3(1.0, 1.0, 1.0)}) {
+    Candidate moved;
+    test.shift(moved, free);
+    moved.on_body = test.on_body(moved);
+    if (moved.on_body >= kFoundShare && !test.is_beside(moved) &&
+        test.in_statures(moved.shift.norm()) < kLongestShift)
+      return moved;
+  }
+  return std::nullopt;
+}
+
+engine::Error not_placed(const PlacementTest& test, const std::string& name, double stature_m,
+                         double nearest_m, bool ambiguous) {
+  return {engine::ErrorCode::kUnusableGeometry,
+          engine::message("The garment '", name, "' is ", test.size_m(), " m from corner to corner and ",
+                          std::max(0.0, nearest_m), " m from a body of ", stature_m, " m, and ",
+                          ambiguous ? "more than one unit or axis would put it on the body."
+                                    : "no unit, axes or shift put it on the body."),
+          "Give it in the body's unit and axes, where the body wears it."};
+}
+
+engine::Warning placed_by(const Candidate& taken, const std::string& name) {
+  std::string how = taken.name.empty() ? std::string("beside the body") : taken.name;
+  if (!taken.shift.isZero())
+    how += engine::message(", and was moved by ", std::lround(1e3 * taken.shift.x()), ", ",
+                           std::lround(1e3 * taken.shift.y()), ", ", std::lround(1e3 * taken.shift.z()),
+                           " mm (left, up, front)");
+  return {"garment-placed", name, "The garment is " + how + "; it was put on where it fits the body.",
+          "Check the picture; --position as-is leaves it where its file has it."};
+}
+
 }  // namespace
 
 engine::Result<std::optional<engine::Warning>> place_garment(const engine::Context& context,
@@ -212,40 +247,14 @@ engine::Result<std::optional<engine::Warning>> place_garment(const engine::Conte
       found && (all.size() < 2 || all[1].on_body < kSecondShare || all[1].scale < all[0].scale);
   std::optional<Candidate> taken;
   if (clear) taken = all.front();
-  if (!found && test.has_size(1.0, kLeastSize)) {
-    // Heights are mostly right, and a skirt, which is a cone, would slide up. So shifts along the floor are
-    // tried first.
-    for (const Vec3& free : {Vec3(1.0, 0.0, 1.0), Vec3(1.0, 1.0, 1.0)}) {
-      Candidate moved;
-      test.shift(moved, free);
-      moved.on_body = test.on_body(moved);
-      if (moved.on_body < kFoundShare || test.is_beside(moved) ||
-          test.in_statures(moved.shift.norm()) >= kLongestShift)
-        continue;
-      taken = std::move(moved);
-      break;
-    }
-  }
+  if (!found) taken = moved_onto_body(test);
   if (!taken) {
     if (test.has_size(1.0, kLeastSize) && test.in_statures(nearest_m) < kMayFall) return nothing;
-    return engine::Error{
-        engine::ErrorCode::kUnusableGeometry,
-        engine::message("The garment '", name, "' is ", test.size_m(), " m from corner to corner and ",
-                        std::max(0.0, nearest_m), " m from a body of ", body.stature_m, " m, and ",
-                        found ? "more than one unit or axis would put it on the body."
-                              : "no unit, axes or shift put it on the body."),
-        "Give it in the body's unit and axes, where the body wears it."};
+    return not_placed(test, name, body.stature_m, nearest_m, found);
   }
   for (Vec3& p : garment.positions)
     if (p.allFinite()) p = (*taken)(p);
-  std::string how = taken->name.empty() ? std::string("beside the body") : taken->name;
-  if (!taken->shift.isZero())
-    how += engine::message(", and was moved by ", std::lround(1e3 * taken->shift.x()), ", ",
-                           std::lround(1e3 * taken->shift.y()), ", ", std::lround(1e3 * taken->shift.z()),
-                           " mm (left, up, front)");
-  return std::optional(engine::Warning{
-      "garment-placed", name, "The garment is " + how + "; it was put on where it fits the body.",
-      "Check the picture; --position as-is leaves it where its file has it."});
+  return std::optional(placed_by(*taken, name));
 }
 
 }  // namespace bodice::tryon
