@@ -30,8 +30,8 @@ struct BoundEllipsoid {
   std::vector<SkinNode> nodes;
 };
 
-proxy::BodyProxy::Data bound_data(const engine::Context& context, const proxy::BodyProxy& proxy,
-                                  const SkinnedBody& body) {
+std::vector<BoundEllipsoid> bind_ellipsoids(const engine::Context& context, const proxy::BodyProxy& proxy,
+                                            const SkinnedBody& body) {
   const double scale = proxy.stature_m() > 0.0 ? proxy.stature_m() / kReferenceStature_m : 1.0;
   const auto owned = owned_skin(context, proxy.ellipsoids(), body.skin, kOwnedBand_m * scale);
   const geometry::MeshDistance distance(context, body.skin);
@@ -47,6 +47,12 @@ proxy::BodyProxy::Data bound_data(const engine::Context& context, const proxy::B
       found[k].nodes = find_nodes(search, k);
     }
   });
+  return found;
+}
+
+proxy::BodyProxy::Data bound_data(const engine::Context& context, const proxy::BodyProxy& proxy,
+                                  const SkinnedBody& body) {
+  std::vector<BoundEllipsoid> found = bind_ellipsoids(context, proxy, body);
   auto binding = std::make_shared<proxy::Binding>();
   for (const rig::Joint& joint : body.skeleton.joints) {
     binding->joint_names.push_back(joint.name);
