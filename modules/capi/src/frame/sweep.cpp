@@ -79,6 +79,14 @@ std::size_t advance(const Paths& paths, std::size_t count, const collision::Cont
   return moving;
 }
 
+Outcome check_paths(const capi::HostParticles& host, const float* fraction, float thickness_m) {
+  if (!fraction) return invalid("The array of fractions is null.", "Pass a float for each particle.");
+  if (!host.safe) return invalid("bodice_particles.safe has no arrays.", "Set it to where the paths begin.");
+  if (!(thickness_m >= 0.0f && std::isfinite(thickness_m)))
+    return invalid("The thickness is negative or not finite.", "Give meters, zero or more.");
+  return {};
+}
+
 }  // namespace
 
 bodice_status bodice_sweep(const bodice_collider* collider, const bodice_particles* particles,
@@ -91,11 +99,7 @@ bodice_status bodice_sweep(const bodice_collider* collider, const bodice_particl
     capi::HostContacts to;
     if (contacts) BODICE_CHECK(capi::read_contacts(contacts, host.count, to));
     if (host.count == 0) return {};
-    if (!fraction) return invalid("The array of fractions is null.", "Pass a float for each particle.");
-    if (!host.safe)
-      return invalid("bodice_particles.safe has no arrays.", "Set it to where the paths begin.");
-    if (!(thickness_m >= 0.0f && std::isfinite(thickness_m)))
-      return invalid("The thickness is negative or not finite.", "Give meters, zero or more.");
+    BODICE_CHECK(check_paths(host, fraction, thickness_m));
     std::optional<bodice_workspace> own;
     bodice_workspace& memory = workspace ? *workspace : own.emplace(collider->context);
     double origin[3];

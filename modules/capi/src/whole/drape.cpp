@@ -73,6 +73,20 @@ void write_end(const std::vector<io::GarmentTrack>& garments, const capi::Stride
     for (const geometry::Vec3& p : garment.frames.back()) to.set(v++, {p.x(), p.y(), p.z()});
 }
 
+/// Finds a motion by its name for a body and a proxy that follow the same rig.
+Outcome find_motion(capi::Progress& progress, const tryon::PreparedBody& body, const char* name,
+                    tryon::BodyMotion& to) {
+  if (!body.skin.rig || !body.fit.proxy.binding())
+    return invalid("The body has no rig that its proxy is bound to.",
+                   "Make the skin with a rig or with find_rig, and fit it with bind.");
+  progress.stage("motion");
+  std::vector<engine::Warning> warnings;
+  auto found = tryon::find_motion(progress.context(), body.skin, {.motion = name, .clip = {}}, warnings);
+  if (!found) return found.error();
+  to = std::move(found).value();
+  return {};
+}
+
 }  // namespace
 
 bodice_status bodice_drape(const bodice_context* context, const bodice_skin* skin, const bodice_proxy* proxy,
@@ -98,15 +112,8 @@ bodice_status bodice_drape(const bodice_context* context, const bodice_skin* ski
     const tryon::PreparedBody body{.skin = skin->skin, .fit = {.proxy = proxy->proxy}};
     std::optional<tryon::BodyMotion> motion;
     if (options.motion) {
-      if (!skin->skin.rig || !proxy->proxy.binding())
-        return invalid("The body has no rig that its proxy is bound to.",
-                       "Make the skin with a rig or with find_rig, and fit it with bind.");
-      progress.stage("motion");
-      std::vector<engine::Warning> warnings;
-      auto found =
-          tryon::find_motion(progress.context(), body.skin, {.motion = options.motion, .clip = {}}, warnings);
-      if (!found) return found.error();
-      wanted.motion = &motion.emplace(std::move(found).value());
+      BODICE_CHECK(find_motion(progress, body, options.motion, motion.emplace()));
+      wanted.motion = &*motion;
     }
     progress.stage("drape");
     BODICE_CHECK(wear(progress.context(), body.skin, options, worn));
