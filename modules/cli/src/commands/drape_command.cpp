@@ -67,6 +67,10 @@ void add_motion_options(CLI::App& sub, DrapeCommand& c) {
                "skin shows")
       ->needs(motion)
       ->group(group);
+}
+
+void add_simulation_options(CLI::App& sub, DrapeCommand& c) {
+  const auto group = "Simulation";
   sub.add_option("--frames", c.frames, "frames to simulate (default: 120, or the clip once)")
       ->check(whole(1, kMostFrames))
       ->group(group);
@@ -176,6 +180,7 @@ void add_drape_options(CLI::App& sub, DrapeCommand& command) {
   add_common_options(sub, command.common);
   add_garment_options(sub, command);
   add_motion_options(sub, command);
+  add_simulation_options(sub, command);
   add_output_options(sub, command);
 }
 
