@@ -84,40 +84,26 @@ engine::Result<void> write_outputs(const FitCommand& command, Run& run, const tr
   if (!surface) return surface.error();
   io::Scene scene = scene_of(body);
   if (!proxy.relief().empty() && !surface->mesh.empty()) scene.surface = &*surface;
-  if (!command.output.empty()) {
-    if (auto saved = proxy::save_with_bases({proxy, bases}, command.output); !saved) return saved;
-    written.push_back(command.output);
-  }
-  if (!command.common.glb.empty()) {
-    if (auto saved = io::write_glb(scene, command.common.glb); !saved) return saved;
-    written.push_back(command.common.glb);
-  }
-  if (!command.common.picture.empty()) {
-    if (auto saved = io::write_picture(scene, {}, command.common.picture, {.show_proxy = true}); !saved)
-      return saved;
-    written.push_back(command.common.picture);
-  }
-  if (!command.surface.empty()) {
-    if (auto saved = io::write_obj(surface->mesh, command.surface, proxy.frame()); !saved) return saved;
-    written.push_back(command.surface);
-  }
-  if (!command.measurements.empty()) {
-    if (auto saved = write_measurements(body.skin, command.tailor_unit, command.measurements); !saved)
-      return saved;
-    written.push_back(command.measurements);
-  }
-  if (!command.segmentation.empty()) {
-    if (auto saved = write_segmentation(run.context(), body.skin, command.segmentation); !saved) return saved;
-    written.push_back(command.segmentation);
-  }
-  if (!command.heat_map.empty()) {
-    const auto limit_m = write_heat_map(run.context(), body, command.heat_map);
+  using File = const std::string&;
+  OutputWriter out(written);
+  out.write(command.output, [&](File file) { return proxy::save_with_bases({proxy, bases}, file); });
+  out.write(command.common.glb, [&](File file) { return io::write_glb(scene, file); });
+  out.write(command.common.picture,
+            [&](File file) { return io::write_picture(scene, {}, file, {.show_proxy = true}); });
+  out.write(command.surface, [&](File file) { return io::write_obj(surface->mesh, file, proxy.frame()); });
+  out.write(command.measurements,
+            [&](File file) { return write_measurements(body.skin, command.tailor_unit, file); });
+  out.write(command.segmentation,
+            [&](File file) { return write_segmentation(run.context(), body.skin, file); });
+  out.write(command.heat_map, [&](File file) -> engine::Result<void> {
+    const auto limit_m = write_heat_map(run.context(), body, file);
     if (!limit_m) return limit_m.error();
     if (!command.common.quiet && !command.common.json)
       std::printf("heat map    blue: the proxy %g mm beyond the skin; red: the skin %g mm beyond the proxy\n",
                   1e3 * *limit_m, 1e3 * *limit_m);
-    written.push_back(command.heat_map);
-  }
+    return {};
+  });
+  if (!out.result()) return out.result();
   return run.write_page(body, scene, nullptr, written);
 }
 

@@ -24,4 +24,26 @@ std::string extension_of(const std::filesystem::path& file);
 /// after long work. Pipes and devices may have any name and take any number of outputs.
 engine::Result<void> check_outputs(std::span<const FileOption> outputs, std::span<const FileOption> inputs);
 
+/// Writes the outputs of a command one after the other, until one fails, and lists them.
+class OutputWriter {
+ public:
+  explicit OutputWriter(std::vector<std::string>& written) : written_(written) {}
+
+  /// `write` takes the name of the file and returns a Result<void>. An empty name, of an option that was not
+  /// given, is left out.
+  template <class Write>
+  void write(const std::string& file, Write&& write) {
+    if (file.empty() || !result_) return;
+    result_ = write(file);
+    if (result_) written_.push_back(file);
+  }
+
+  /// The failure of the first output that could not be written.
+  const engine::Result<void>& result() const { return result_; }
+
+ private:
+  std::vector<std::string>& written_;
+  engine::Result<void> result_;
+};
+
 }  // namespace bodice::cli

@@ -102,6 +102,30 @@ std::vector<std::size_t> spread_frames(std::size_t kept) {
   return frames;
 }
 
+/// The pictures of a drape that its options name.
+void write_pictures(const DrapeCommand& command, const io::Scene& scene, const tryon::DrapeResult& draped,
+                    OutputWriter& out) {
+  const io::GarmentTrack& first = scene.garments.front();
+  const std::size_t count = first.frames.size();
+  out.write(command.common.picture, [&](const std::string& file) {
+    const std::size_t frames[] = {0, frame_between(scene), count - 1};
+    io::PictureOptions options;
+    if (draped.report.fit_map) options.legend = tryon::legend_of(*draped.report.fit_map);
+    return io::write_picture(scene, frames, file, options);
+  });
+  out.write(command.contact_sheet, [&](const std::string& file) {
+    std::vector<std::size_t> frames(count);
+    std::iota(frames.begin(), frames.end(), std::size_t{0});
+    return io::write_contact_sheet(scene, frames, command.sheet_columns, file, {.width = 240, .height = 320});
+  });
+  out.write(command.film_strip, [&](const std::string& file) {
+    const std::vector<std::size_t> frames = spread_frames(count);
+    const io::PictureOptions options = {
+        .width = 240, .height = 360, .from_left = moves_forward(draped.body_frames, first)};
+    return io::write_contact_sheet(scene, frames, static_cast<int>(frames.size()), file, options);
+  });
+}
+
 engine::Result<void> write_outputs(Run& run, const DrapeCommand& command, const DressedBody& dressed,
                                    tryon::DrapeResult draped, std::vector<std::string>& written) {
   io::Scene scene = scene_of(dressed.body);
@@ -113,45 +137,18 @@ engine::Result<void> write_outputs(Run& run, const DrapeCommand& command, const 
   scene.proxy_frames = draped.proxy_frames;
   scene.garments = std::move(draped.garments);
   scene.body_frames = draped.body_frames;
-  if (auto saved = io::write_glb(scene, command.output); !saved) return saved;
-  written.push_back(command.output);
-  if (const std::string& picture = command.common.picture; !picture.empty()) {
-    const std::size_t last = scene.garments.front().frames.size() - 1;
-    const std::size_t frames[] = {0, frame_between(scene), last};
-    io::PictureOptions options;
-    if (draped.report.fit_map) options.legend = tryon::legend_of(*draped.report.fit_map);
-    if (auto saved = io::write_picture(scene, frames, picture, options); !saved) return saved;
-    written.push_back(picture);
-  }
-  if (!command.thumbnail.empty()) {
+  OutputWriter out(written);
+  out.write(command.output, [&](const std::string& file) { return io::write_glb(scene, file); });
+  write_pictures(command, scene, draped, out);
+  for (std::size_t k = 0; !command.cache.empty() && k < scene.garments.size(); ++k)
+    out.write(cache_file(command, k), [&](const std::string& file) {
+      return io::write_cloth_cache(scene.garments[k], scene.frame, file);
+    });
+  if (!out.result()) return out.result();
+  if (!command.thumbnail.empty()) {  // no option names it, so that it is not listed
     const std::size_t last[] = {scene.garments.front().frames.size() - 1};
     if (auto saved = io::write_contact_sheet(scene, last, 1, command.thumbnail, kThumbnail); !saved)
       return saved;
-  }
-  if (!command.contact_sheet.empty()) {
-    std::vector<std::size_t> frames(scene.garments.front().frames.size());
-    std::iota(frames.begin(), frames.end(), std::size_t{0});
-    if (auto saved = io::write_contact_sheet(scene, frames, command.sheet_columns, command.contact_sheet,
-                                             {.width = 240, .height = 320});
-        !saved)
-      return saved;
-    written.push_back(command.contact_sheet);
-  }
-  if (!command.film_strip.empty()) {
-    const std::vector<std::size_t> frames = spread_frames(scene.garments.front().frames.size());
-    if (auto saved =
-            io::write_contact_sheet(scene, frames, static_cast<int>(frames.size()), command.film_strip,
-                                    {.width = 240,
-                                     .height = 360,
-                                     .from_left = moves_forward(draped.body_frames, scene.garments.front())});
-        !saved)
-      return saved;
-    written.push_back(command.film_strip);
-  }
-  for (std::size_t k = 0; !command.cache.empty() && k < scene.garments.size(); ++k) {
-    const std::string file = cache_file(command, k);
-    if (auto saved = io::write_cloth_cache(scene.garments[k], scene.frame, file); !saved) return saved;
-    written.push_back(file);
   }
   return run.write_page(dressed.body, scene, &draped.report, written);
 }
