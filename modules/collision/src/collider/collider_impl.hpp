@@ -32,6 +32,7 @@ struct Collider::Impl {
   void query_range(const ParticleView& particles, std::size_t begin, std::size_t end,
                    const ParticleSequence& sequence, const QueryOptions& options,
                    std::span<Contact> contacts) const;
+  class RangeQuery;  ///< the steps of query_range()
   /// Starts a call with the current pose: refreshes order and candidate cache of the workspace, which may be
   /// null, and returns the order to visit all particles in.
   ParticleSequence begin_call(const ParticleView& particles, WorkspaceData* workspace) const;

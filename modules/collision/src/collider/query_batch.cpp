@@ -9,14 +9,14 @@
 
 namespace bodice::inline v0_1::collision {
 
-namespace {
-
 /// Positions of a batch and their indices in the caller's arrays.
 struct alignas(64) GatheredPositions {
   float x[kBatch], y[kBatch], z[kBatch];
   std::uint32_t index[kBatch];
   int count = 0;
 };
+
+namespace {
 
 void copy(const float* from, const GatheredPositions& positions, std::size_t begin, bool in_order,
           float* to) {
@@ -130,74 +130,125 @@ Positions view_of(const GatheredPositions& positions, LaneSpan lanes, GatheredPo
 
 }  // namespace
 
+/// A query of at most kBatch particles, in steps: each takes what the one before left open.
+class Collider::Impl::RangeQuery {
+ public:
+  RangeQuery(const Impl& collider, const ParticleView& particles, const ParticleSequence& sequence,
+             const QueryOptions& options, std::span<Contact> contacts)
+      : collider_(collider),
+        particles_(particles),
+        sequence_(sequence),
+        options_(options),
+        contacts_(contacts),
+        out_{.margin_m = static_cast<float>(collider.margin_m), .within_m = options.within_m} {}
+
+  void run(std::size_t begin, std::size_t end) {
+    begin_ = begin;
+    if (collider_.field.size() == 0) return query_without_ellipsoids(end);
+    batch_.cache = collider_.cache_access_of(particles_, begin, end, sequence_.workspace);
+    // A first-order query stores contacts in each step, and prefetching more of them would hold up
+    // these stores.
+    const bool exact = options_.accuracy == Accuracy::kExact;
+    batch_.next = next_batch_of(particles_, end, sequence_, exact ? contacts_.data() : nullptr);
+    const bool stored = sequence_.stored();
+    const bool in_place = stored && particles_.packed && end - begin == kBatch;
+    if (in_place && query_in_place() == Status::kDone) return;
+    gather_positions(particles_, sequence_, begin, end, positions_);
+    pad(positions_);
+    if (stored && !in_place && query_in_order() == Status::kDone) return;
+    number_positions();
+    out_.contacts = contacts_.data();
+    if (!stored && query_gathered({0, positions_.count}) == Status::kDone) return;
+    query_blocks();
+  }
+
+ private:
+  void query_without_ellipsoids(std::size_t end) {
+    gather_positions(particles_, sequence_, begin_, end, positions_);
+    number_positions();
+    for (int i = 0; i < positions_.count; ++i) query_exactly(i);
+  }
+
+  /// Reads a whole batch where the caller has it.
+  Status query_in_place() {
+    const Particles& arrays = particles_.arrays;
+    batch_.at = {arrays.x + begin_, arrays.y + begin_, arrays.z + begin_, kBatch};
+    return query_consecutive();
+  }
+
+  /// Reads gathered positions that are consecutive in the caller's arrays.
+  Status query_in_order() {
+    batch_.at = view_of(positions_, {0, positions_.count}, alone_);
+    return query_consecutive();
+  }
+
+  /// Contacts of consecutive particles are consecutive, too, and written faster than those of an index.
+  Status query_consecutive() {
+    out_.contacts = contacts_.data() + begin_;
+    return run_kernel(begin_ / kBlock);
+  }
+
+  Status query_gathered(LaneSpan lanes) {
+    batch_.at = view_of(positions_, lanes, alone_);
+    out_.index = positions_.index + lanes.begin;
+    return run_kernel((begin_ + static_cast<std::size_t>(lanes.begin)) / kBlock);
+  }
+
+  /// Either the candidates overflowed, which those of single blocks may not, or some particles are too far
+  /// away for floats.
+  void query_blocks() {
+    batch_.cache = {};
+    batch_.next = {};
+    drop_far(positions_, [&](int i) { query_exactly(i); });
+    if (positions_.count == 0) return;
+    pad(positions_);
+    // Whether floats suffice for a particle must not depend on its neighbors.
+    constexpr int kSizes[] = {1};
+    for (int from = 0; from < positions_.count; from += kBlock)
+      with_fallback(
+          {from, std::min(from + kBlock, positions_.count)}, kSizes,
+          [&](LaneSpan lanes) { return query_gathered(lanes); },
+          [&](LaneSpan lanes) {
+            query_exactly(lanes.begin);
+            return Status::kDone;
+          });
+  }
+
+  void query_exactly(int i) {
+    const Contact found =
+        collider_.exact_contact({double{positions_.x[i]}, double{positions_.y[i]}, double{positions_.z[i]}});
+    contacts_[positions_.index[i]] = found.signed_distance <= options_.within_m ? found : no_contact();
+  }
+
+  /// Gives consecutive positions the indices that gather_positions() leaves out.
+  void number_positions() {
+    if (sequence_.stored())
+      std::iota(positions_.index, positions_.index + positions_.count, static_cast<std::uint32_t>(begin_));
+  }
+
+  Status run_kernel(std::size_t first_block) {
+    const Status status = query_batch(collider_.model, options_.accuracy, batch_, out_);
+    const int blocks = (batch_.at.count + kBlock - 1) / kBlock;
+    for (int i = 0; sequence_.workspace && status == Status::kDone && i < blocks; ++i)
+      sequence_.workspace->order.note_radius(first_block + static_cast<std::size_t>(i), batch_.radius_m[i]);
+    return status;
+  }
+
+  const Impl& collider_;
+  const ParticleView& particles_;
+  const ParticleSequence& sequence_;
+  const QueryOptions& options_;
+  const std::span<Contact> contacts_;
+  std::size_t begin_ = 0;
+  Batch batch_{};
+  ContactOutput out_;
+  GatheredPositions positions_, alone_;
+};
+
 void Collider::Impl::query_range(const ParticleView& particles, std::size_t begin, std::size_t end,
                                  const ParticleSequence& sequence, const QueryOptions& options,
                                  std::span<Contact> contacts) const {
-  const int all = static_cast<int>(end - begin);
-  const bool exact = options.accuracy == Accuracy::kExact;
-  const Particles& arrays = particles.arrays;
-  const bool in_place = sequence.stored() && particles.packed && all == kBatch;
-  Batch batch{
-      .at = in_place ? Positions{arrays.x + begin, arrays.y + begin, arrays.z + begin, all} : Positions{},
-      .cache = cache_access_of(particles, begin, end, sequence.workspace),
-      // A first-order query stores contacts in each step, and prefetching more of them would hold up
-      // these stores.
-      .next = next_batch_of(particles, end, sequence, exact ? contacts.data() : nullptr)};
-  ContactOutput out{.contacts = contacts.data() + begin,
-                    .margin_m = static_cast<float>(margin_m),
-                    .within_m = options.within_m};
-  const auto kernel = [&](std::size_t first_block) {
-    const Status status = query_batch(model, options.accuracy, batch, out);
-    const int blocks = (batch.at.count + kBlock - 1) / kBlock;
-    for (int i = 0; sequence.workspace && status == Status::kDone && i < blocks; ++i)
-      sequence.workspace->order.note_radius(first_block + static_cast<std::size_t>(i), batch.radius_m[i]);
-    return status;
-  };
-  if (in_place && field.size() > 0 && kernel(begin / kBlock) == Status::kDone) return;
-  GatheredPositions positions, alone;
-  gather_positions(particles, sequence, begin, end, positions);
-  const auto exactly = [&](int i) {
-    const Contact found =
-        exact_contact({double{positions.x[i]}, double{positions.y[i]}, double{positions.z[i]}});
-    contacts[positions.index[i]] = found.signed_distance <= options.within_m ? found : no_contact();
-  };
-  const auto number = [&] {
-    if (sequence.stored())
-      std::iota(positions.index, positions.index + positions.count, static_cast<std::uint32_t>(begin));
-  };
-  if (field.size() == 0) {
-    number();
-    for (int i = 0; i < positions.count; ++i) exactly(i);
-    return;
-  }
-  pad(positions);
-  const bool in_order = sequence.stored() && !in_place;
-  if (in_order) {  // then contacts are so, too, which are written faster than those of an index
-    batch.at = view_of(positions, {0, positions.count}, alone);
-    if (kernel(begin / kBlock) == Status::kDone) return;
-  }
-  number();
-  out.contacts = contacts.data();
-  const auto gathered = [&](LaneSpan lanes) {
-    batch.at = view_of(positions, lanes, alone);
-    out.index = positions.index + lanes.begin;
-    return kernel((begin + static_cast<std::size_t>(lanes.begin)) / kBlock);
-  };
-  if (!in_place && !in_order && gathered({0, positions.count}) == Status::kDone) return;
-  batch.cache = {};
-  batch.next = {};
-  // Either the candidates overflowed, which those of single blocks may not, or some particles are too far
-  // away for floats.
-  drop_far(positions, exactly);
-  if (positions.count == 0) return;
-  pad(positions);
-  // Whether floats suffice for a particle must not depend on its neighbors.
-  constexpr int kSizes[] = {1};
-  for (int from = 0; from < positions.count; from += kBlock)
-    with_fallback({from, std::min(from + kBlock, positions.count)}, kSizes, gathered, [&](LaneSpan lanes) {
-      exactly(lanes.begin);
-      return Status::kDone;
-    });
+  RangeQuery(*this, particles, sequence, options, contacts).run(begin, end);
 }
 
 }  // namespace bodice::collision
