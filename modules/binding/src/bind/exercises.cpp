@@ -98,6 +98,33 @@ std::vector<std::uint8_t> buried_texels(const proxy::ReliefTable& table, const p
   return buried;
 }
 
+/// The limbs of one side.
+struct Side {
+  Part thigh, calf, upper_arm, forearm;
+};
+constexpr Side kLeft = {Part::kThighL, Part::kCalfL, Part::kUpperArmL, Part::kForearmL};
+constexpr Side kRight = {Part::kThighR, Part::kCalfR, Part::kUpperArmR, Part::kForearmR};
+
+/// A seat or a squat: both thighs to the front, both calves back, both arms to the front.
+std::vector<Bend> crouch(const Vec3& front, double thigh_deg, double calf_deg, double arm_deg) {
+  const Side &l = kLeft, &r = kRight;
+  return {{l.thigh, front, thigh_deg, l.thigh},       {r.thigh, front, thigh_deg, r.thigh},
+          {l.calf, -front, calf_deg, l.thigh},        {r.calf, -front, calf_deg, r.thigh},
+          {l.upper_arm, front, arm_deg, l.upper_arm}, {r.upper_arm, front, arm_deg, r.upper_arm}};
+}
+
+/// One leg ahead, the other behind, arms the other way.
+std::vector<Bend> stride_of_run(const Vec3& front, const Side& ahead, const Side& behind) {
+  return {{ahead.thigh, front, 60.0, ahead.thigh},          {behind.thigh, -front, 25.0, behind.thigh},
+          {ahead.calf, -front, 60.0, ahead.thigh},          {behind.calf, -front, 90.0, behind.thigh},
+          {ahead.upper_arm, -front, 40.0, ahead.upper_arm}, {behind.upper_arm, front, 40.0, behind.upper_arm},
+          {ahead.forearm, front, 80.0, ahead.upper_arm},    {behind.forearm, front, 80.0, behind.upper_arm}};
+}
+
+std::vector<Bend> raised_arms(const Vec3& up) {
+  return {{kLeft.upper_arm, up, 120.0, kLeft.upper_arm}, {kRight.upper_arm, up, 120.0, kRight.upper_arm}};
+}
+
 }  // namespace
 
 std::vector<std::vector<rig::Affine>> exercises(const SkinnedBody& body, std::span<const Part> part) {
@@ -105,42 +132,9 @@ std::vector<std::vector<rig::Affine>> exercises(const SkinnedBody& body, std::sp
   if (part.size() != body.skin.positions.size()) return poses;
   const Limbs limbs(body, part);
   const Vec3 &front = limbs.directions().front, &up = limbs.directions().up;
-  const std::vector<Bend> all[] = {
-      // A seat.
-      {{Part::kThighL, front, 85.0, Part::kThighL},
-       {Part::kThighR, front, 85.0, Part::kThighR},
-       {Part::kCalfL, -front, 85.0, Part::kThighL},
-       {Part::kCalfR, -front, 85.0, Part::kThighR},
-       {Part::kUpperArmL, front, 30.0, Part::kUpperArmL},
-       {Part::kUpperArmR, front, 30.0, Part::kUpperArmR}},
-      // A squat.
-      {{Part::kThighL, front, 110.0, Part::kThighL},
-       {Part::kThighR, front, 110.0, Part::kThighR},
-       {Part::kCalfL, -front, 125.0, Part::kThighL},
-       {Part::kCalfR, -front, 125.0, Part::kThighR},
-       {Part::kUpperArmL, front, 80.0, Part::kUpperArmL},
-       {Part::kUpperArmR, front, 80.0, Part::kUpperArmR}},
-      // A stride of a run, the left leg ahead.
-      {{Part::kThighL, front, 60.0, Part::kThighL},
-       {Part::kThighR, -front, 25.0, Part::kThighR},
-       {Part::kCalfL, -front, 60.0, Part::kThighL},
-       {Part::kCalfR, -front, 90.0, Part::kThighR},
-       {Part::kUpperArmL, -front, 40.0, Part::kUpperArmL},
-       {Part::kUpperArmR, front, 40.0, Part::kUpperArmR},
-       {Part::kForearmL, front, 80.0, Part::kUpperArmL},
-       {Part::kForearmR, front, 80.0, Part::kUpperArmR}},
-      // The same, the right leg ahead.
-      {{Part::kThighR, front, 60.0, Part::kThighR},
-       {Part::kThighL, -front, 25.0, Part::kThighL},
-       {Part::kCalfR, -front, 60.0, Part::kThighR},
-       {Part::kCalfL, -front, 90.0, Part::kThighL},
-       {Part::kUpperArmR, -front, 40.0, Part::kUpperArmR},
-       {Part::kUpperArmL, front, 40.0, Part::kUpperArmL},
-       {Part::kForearmR, front, 80.0, Part::kUpperArmR},
-       {Part::kForearmL, front, 80.0, Part::kUpperArmL}},
-      // Arms raised.
-      {{Part::kUpperArmL, up, 120.0, Part::kUpperArmL}, {Part::kUpperArmR, up, 120.0, Part::kUpperArmR}}};
-  for (const std::vector<Bend>& bends : all)
+  const std::vector<Bend> seat = crouch(front, 85.0, 85.0, 30.0), squat = crouch(front, 110.0, 125.0, 80.0);
+  for (const std::vector<Bend>& bends : {seat, squat, stride_of_run(front, kLeft, kRight),
+                                         stride_of_run(front, kRight, kLeft), raised_arms(up)})
     if (auto skinning = limbs.bent(bends)) poses.push_back(std::move(skinning).value());
   return poses;
 }
