@@ -14,10 +14,9 @@ double beat(double phase, double count) {
   return std::sin(2.0 * std::numbers::pi * count * phase);
 }
 
-}  // namespace
-
-Posture dance(double phase, const Build& build) {
-  // Twice in the clip: the left foot steps out, the right follows, and both come back.
+/// A step to the left and back, twice in the clip: the left foot steps out, the right follows, and both come
+/// back. Returns how far the middle of the body is to the left.
+double step_aside(double step, Posture& p) {
   constexpr double kOut = 0.34;  // of the leg
   static const Curve left({{0.0, 0.0}, {0.06, 0.0}, {0.22, 1.0}, {0.78, 1.0}, {0.94, 0.0}, {1.0, 0.0}},
                           Ends::kPeriodic);
@@ -41,8 +40,6 @@ Posture dance(double phase, const Build& build) {
                                  {0.74, 0.0},
                                  {1.0, 0.0}},
                                 Ends::kPeriodic);
-  const double step = 2.0 * phase;
-  Posture p = standing(build);
   p.foot[0].ground.x() += kOut * left(step);
   p.foot[1].ground.x() += kOut * right(step);
   p.foot[0].ground.y() = left_lift(step);
@@ -51,15 +48,10 @@ Posture dance(double phase, const Build& build) {
     foot.pitch = -200.0 * foot.ground.y();
     foot.toes = 20.0;
   }
-  const double middle = 0.5 * kOut * (left(step) + right(step));
-  p.hips = {middle + 0.03 * beat(phase, 2.0), -0.045 - 0.02 * beat(phase, 8.0), 0.015 * beat(phase, 4.0)};
-  p.roll = 7.0 * beat(phase, 4.0);
-  p.yaw = 10.0 * beat(phase, 2.0);
-  p.pitch = 4.0;
-  p.bend = 11.0 * beat(phase, 4.0);
-  p.turn = -22.0 * beat(phase, 2.0);
-  p.look = 14.0 * beat(phase, 1.0);
-  p.nod = 4.0 * beat(phase, 8.0);
+  return 0.5 * kOut * (left(step) + right(step));
+}
+
+void swing_arms(double phase, Posture& p) {
   for (int side = 0; side < 2; ++side) {
     const double sign = side == 0 ? 1.0 : -1.0, swing = sign * beat(phase, 2.0);
     ArmPosture& arm = p.arm[side];
@@ -68,6 +60,22 @@ Posture dance(double phase, const Build& build) {
     arm.elbow = 62.0 + 26.0 * beat(phase, 4.0);
     arm.twist = -10.0;
   }
+}
+
+}  // namespace
+
+Posture dance(double phase, const Build& build) {
+  Posture p = standing(build);
+  const double middle = step_aside(2.0 * phase, p);
+  p.hips = {middle + 0.03 * beat(phase, 2.0), -0.045 - 0.02 * beat(phase, 8.0), 0.015 * beat(phase, 4.0)};
+  p.roll = 7.0 * beat(phase, 4.0);
+  p.yaw = 10.0 * beat(phase, 2.0);
+  p.pitch = 4.0;
+  p.bend = 11.0 * beat(phase, 4.0);
+  p.turn = -22.0 * beat(phase, 2.0);
+  p.look = 14.0 * beat(phase, 1.0);
+  p.nod = 4.0 * beat(phase, 8.0);
+  swing_arms(phase, p);
   return p;
 }
 
