@@ -113,7 +113,7 @@ std::vector<Bend> crouch(const Vec3& front, double thigh_deg, double calf_deg, d
           {l.upper_arm, front, arm_deg, l.upper_arm}, {r.upper_arm, front, arm_deg, r.upper_arm}};
 }
 
-/// One leg ahead, the other behind, arms the other way.
+/// One leg ahead, the other behind, and the arms against them.
 std::vector<Bend> stride_of_run(const Vec3& front, const Side& ahead, const Side& behind) {
   return {{ahead.thigh, front, 60.0, ahead.thigh},          {behind.thigh, -front, 25.0, behind.thigh},
           {ahead.calf, -front, 60.0, ahead.thigh},          {behind.calf, -front, 90.0, behind.thigh},
