@@ -150,6 +150,29 @@ engine::Result<void> query(const QueryCommand& command) {
   return {};
 }
 
+/// Options of the pose that is queried. Returns that of the motion.
+CLI::Option* add_pose_options(CLI::App& sub, QueryCommand& command) {
+  CLI::Option* const motion =
+      sub.add_option("--motion", command.motion.choice.motion,
+                     "pose a proxy that is bound to joints by a clip of this file (GLB, FBX, DAE, BVH)")
+          ->check(not_empty());
+  sub.add_option("--clip", command.motion.choice.clip, "name of the clip (default: the file's first)")
+      ->check(not_empty())
+      ->needs(motion);
+  sub.add_option("--time", command.motion.time_s, "seconds of the clip, from 0 (default: 0)")
+      ->check(zero_or_more())
+      ->needs(motion);
+  CLI::Option* const refit =
+      sub.add_flag("--refit", command.refit,
+                   "solve the proxy's tables anew in that pose before answering (some tenths of a second)")
+          ->needs(motion);
+  sub.add_option("--body", command.body,
+                 "with --refit: the body that the proxy was fitted to (default: the file of --motion)")
+      ->check(not_empty())
+      ->needs(refit);
+  return motion;
+}
+
 }  // namespace
 
 void add_query_command(CLI::App& app, int& exit_code) {
@@ -162,24 +185,7 @@ void add_query_command(CLI::App& app, int& exit_code) {
       ->required();
   sub->add_option("-o,--output", command->output, "where to write (default: standard output)")
       ->check(not_empty());
-  CLI::Option* const motion =
-      sub->add_option("--motion", command->motion.choice.motion,
-                      "pose a proxy that is bound to joints by a clip of this file (GLB, FBX, DAE, BVH)")
-          ->check(not_empty());
-  sub->add_option("--clip", command->motion.choice.clip, "name of the clip (default: the file's first)")
-      ->check(not_empty())
-      ->needs(motion);
-  sub->add_option("--time", command->motion.time_s, "seconds of the clip, from 0 (default: 0)")
-      ->check(zero_or_more())
-      ->needs(motion);
-  CLI::Option* const refit =
-      sub->add_flag("--refit", command->refit,
-                    "solve the proxy's tables anew in that pose before answering (some tenths of a second)")
-          ->needs(motion);
-  sub->add_option("--body", command->body,
-                  "with --refit: the body that the proxy was fitted to (default: the file of --motion)")
-      ->check(not_empty())
-      ->needs(refit);
+  CLI::Option* const motion = add_pose_options(*sub, *command);
   sub->add_option("--within", command->within,
                   "leave out what is farther away, in the proxy's units (default: nothing)")
       ->check(zero_or_more())
