@@ -52,6 +52,11 @@ std::size_t find_crossing(const engine::Context& context, const ContactSource& s
 std::size_t find_crossing_again(const engine::Context& context, const ContactSource& source,
                                 const CrossingSearch& how, MovedLeaves& moved, std::vector<PairTask>& tasks);
 
+/// Drops from `pressed` the pairs that do not cross on their paths to `now`, because they were moved since
+/// they were found.
+void drop_separated(const engine::Context& context, const ContactSource& source, std::span<const Point> now,
+                    std::vector<PairTask>& tasks);
+
 /// Joins the particles of each pair that would cross into one zone, and moves all zones: writes their
 /// members' positions to `now`. Pins stay where they are, and a zone with pins moves as they do.
 void join_zones(const std::vector<PairTask>& tasks, const Particles& particles, std::span<const Point> before,
