@@ -99,11 +99,12 @@ void restore_pin(Particles& p, std::size_t i, float inverse_h) {
   p.vz[i] = (p.z[i] - p.old_z[i]) * inverse_h;
 }
 
-// Completes the contact of a particle after its push: a pin returns, another particle gets friction and a
-// velocity.
+// Completes the contact of a particle after its push: a pin that does not yield returns, another particle
+// gets friction and a velocity.
 void respond(Particles& p, ContactState& s, std::size_t i, const BodyContact& contact) {
   const Point& before = p.point[i];
-  if (p.inverse_mass[i] == 0.0f) restore_pin(p, i, contact.substep.inverse_per_s());
+  const bool stays_pinned = p.inverse_mass[i] == 0.0f && !(before.weight > 0.0f);
+  if (stays_pinned) restore_pin(p, i, contact.substep.inverse_per_s());
   s.touching[i] = p.x[i] != before.x || p.y[i] != before.y || p.z[i] != before.z;
   if (!s.touching[i]) return;
   store(s.normal[i], surface_normal(push_of(p, i), contact.how.max_push_m));

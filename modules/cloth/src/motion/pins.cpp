@@ -3,6 +3,12 @@
 #include <algorithm>
 
 namespace bodice::inline v0_1::cloth {
+namespace {
+
+// The speed at which pins that contact moved return to their paths.
+constexpr double kReturn_m_s = 0.5;
+
+}  // namespace
 
 bool set_pin_targets(std::span<const Vec3> world_positions, Pins& pins) {
   const std::size_t count = std::min(world_positions.size(), pins.to.size());
@@ -15,18 +21,29 @@ bool set_pin_targets(std::span<const Vec3> world_positions, Pins& pins) {
   return moved;
 }
 
-void aim_pins(const Pins& pins, double time_s, Particles& p) {
+void begin_pin_paths(const Particles& p, Pins& pins) {
+  if (pins.yield) return;
+  for (std::size_t i = 0; i < pins.particle.size(); ++i)
+    if (pins.particle[i] != geometry::kNoIndex) pins.from[i] = p.world(pins.particle[i]);
+}
+
+void aim_pins(const Pins& pins, double begin, double end, double substep_s, Particles& p) {
   for (std::size_t i = 0; i < pins.particle.size(); ++i) {
     const Index particle = pins.particle[i];
     if (particle == geometry::kNoIndex) continue;
-    const Vec3 velocity = (pins.to[i] - p.world(particle)) / time_s;
+    const Vec3 path = pins.to[i] - pins.from[i];
+    Vec3 back = (pins.from[i] + begin * path - p.world(particle)) / substep_s;
+    if (pins.yield) back *= std::min(1.0, kReturn_m_s / std::max(back.norm(), kReturn_m_s));
+    const Vec3 velocity = ((end - begin) / substep_s) * path + back;
     p.vx[particle] = static_cast<float>(velocity[0]);
     p.vy[particle] = static_cast<float>(velocity[1]);
     p.vz[particle] = static_cast<float>(velocity[2]);
   }
 }
 
-void put_pins_on_targets(const Pins& pins, Particles& p) {
+void end_pin_paths(Pins& pins, Particles& p) {
+  pins.from = pins.to;
+  if (pins.yield) return;
   for (std::size_t i = 0; i < pins.particle.size(); ++i) {
     const Index particle = pins.particle[i];
     if (particle == geometry::kNoIndex) continue;
@@ -35,6 +52,12 @@ void put_pins_on_targets(const Pins& pins, Particles& p) {
     p.y[particle] = static_cast<float>(local[1]);
     p.z[particle] = static_cast<float>(local[2]);
   }
+}
+
+void free_yielding_pins(const Pins& pins, bool free, Particles& p) {
+  if (!pins.yield) return;
+  for (const Index particle : pins.particle)
+    if (particle != geometry::kNoIndex) p.point[particle].weight = free ? 1.0f / p.mass[particle] : 0.0f;
 }
 
 }  // namespace bodice::cloth

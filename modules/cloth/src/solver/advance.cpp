@@ -81,7 +81,7 @@ void begin_frame(const engine::Context& context, const Plan& plan, State& s) {
     begin_sleep_frame(p, begin, end, s.sleep);
   });
   if (changed.load()) update_weights(context, p, s.coarse);
-  aim_pins(s.pins, plan.simulated_s, p);
+  begin_pin_paths(p, s.pins);
   if (touches_itself(plan, s))
     begin_self_contact(context, p, s.self);
   else
@@ -147,6 +147,8 @@ Support support_of(const ContactState& contacts) {
 std::uint32_t run_substep(const engine::Context& context, const collision::Collider* collider,
                           const Plan& plan, int substep, State& s) {
   Particles& p = s.particles;
+  const auto substeps = static_cast<double>(plan.substeps);
+  aim_pins(s.pins, substep / substeps, (substep + 1) / substeps, static_cast<double>(plan.substep_s), p);
   std::swap(p.x, p.old_x), std::swap(p.y, p.old_y), std::swap(p.z, p.old_z);
   const bool bend = !(plan.limits & kBendingHalved) || substep % 2 == 0;
   const float inverse_h2 = static_cast<float>(s.options.iterations) / (plan.substep_s * plan.substep_s);
@@ -162,11 +164,13 @@ std::uint32_t run_substep(const engine::Context& context, const collision::Colli
   }
   solve_coarse(context, support_of(s.contacts), s.coarse, p);
   const SelfSubstep with_itself = self_substep(plan, s);
+  free_yielding_pins(s.pins, true, p);
   if (touches_itself(plan, s)) push_apart(context, with_itself, s.self, p);
   limits |= resolve_body_contacts(context, collider, s.options, {plan.substep_s, share(substep, plan)},
                                   s.contacts, p);
   if (touches_itself(plan, s))
     hold_apart(context, with_itself, resolved_body(collider, share(substep, plan), s), s.self, p);
+  free_yielding_pins(s.pins, false, p);
   return limits;
 }
 
@@ -183,7 +187,7 @@ void end_contact(const engine::Context& context, const collision::Collider& coll
 void end_frame(const engine::Context& context, const Plan& plan, State& s) {
   const Environment& e = s.options.environment;
   Particles& p = s.particles;
-  put_pins_on_targets(s.pins, p);
+  end_pin_paths(s.pins, p);
   end_sleep_frame(context, s.ring, plan.simulated_s, p, s.sleep);
   engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) p.point[i] = {p.x[i], p.y[i], p.z[i], p.point[i].weight};

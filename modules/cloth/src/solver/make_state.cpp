@@ -46,6 +46,7 @@ Pins make_pins(const WeldedGarment& garment, std::span<const Index> pinned,
                         std::to_string(unknown) + " pins name a vertex that does not exist or was dropped.",
                         ""});
   }
+  pins.from = pins.to;
   return pins;
 }
 
@@ -93,6 +94,7 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   s.warnings = std::move(welded->warnings);
   const geometry::TriMesh& mesh = welded->mesh;
   s.pins = make_pins(*welded, pinned, s.warnings);
+  s.pins.yield = options.pins_yield;
   s.particles = make_particles(mesh, fabric.density_kg_m2, pinned_particles(s.pins, mesh.positions.size()));
   const Topology topology = find_topology(mesh);
   s.stretch = make_stretch(mesh, topology, fabric, s.particles);
@@ -132,6 +134,8 @@ bool set_positions(std::span<const Vec3> world_positions, State& s) {
     p.vx[i] = p.vy[i] = p.vz[i] = 0.0f;
     p.point[i] = {at.x(), at.y(), at.z(), p.point[i].weight};
   }
+  for (std::size_t k = 0; k < s.pins.particle.size(); ++k)
+    if (s.pins.particle[k] != geometry::kNoIndex) s.pins.from[k] = p.world(s.pins.particle[k]);
   wake_all(s.sleep);
   s.self.crossings_known = false, forget_pairs(s.self);
   forget_owners(s.contacts.motion);

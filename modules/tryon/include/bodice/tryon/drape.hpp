@@ -27,7 +27,8 @@ struct DrapeOptions {
   /// Options of the solver. Two of them are replaced: thickness_m by the member below, and for a proxy of
   /// tier paper the response by the paper's. Two sweeps keep the 95th percentile of cotton's stretch under 5
   /// %.
-  cloth::SolverOptions solver = {.substeps = 16, .iterations = 2, .doubled_when_stretched = true};
+  cloth::SolverOptions solver = {
+      .substeps = 16, .iterations = 2, .doubled_when_stretched = true, .pins_yield = true};
   /// Distance that cloth keeps from the proxy, meters. Absent: known_thickness_m(); on a moving body, the
   /// larger of it and the same over poses of the clip.
   std::optional<double> thickness_m;

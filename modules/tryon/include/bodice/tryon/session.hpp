@@ -42,7 +42,8 @@ struct SessionOptions {
   /// tables. With one worker in latency mode nothing runs behind the frames, and there are no refits.
   bool refits = true;
   std::optional<cloth::Fabric> fabric;  ///< absent: cotton
-  cloth::SolverOptions solver;  ///< the defaults have eight substeps a frame, those of drape() sixteen
+  /// Options of the solver. The defaults have eight substeps a frame, those of drape() sixteen.
+  cloth::SolverOptions solver = {.pins_yield = true};
 };
 
 /// A body that frames use. Each refinement of its proxy is a new LiveBody with the same skin.
