@@ -9,7 +9,7 @@ using namespace bodice_test;
 
 namespace {
 
-/// Two parallel edges across each other, 1 mm apart, as one pair that would cross.
+/// Two edges at a right angle, one 1 mm above the other, as one pair that would cross.
 struct CrossingEdges {
   std::vector<cloth::Point> before, now;
   cloth::Particles particles;

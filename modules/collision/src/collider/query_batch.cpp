@@ -194,8 +194,8 @@ class Collider::Impl::RangeQuery {
     return run_kernel((begin_ + static_cast<std::size_t>(lanes.begin)) / kBlock);
   }
 
-  /// Either the candidates overflowed, which those of single blocks may not, or some particles are too far
-  /// away for floats.
+  /// Queries block by block. The candidates of the batch overflowed, and those of a block may not, or some
+  /// particles are too far away for floats.
   void query_blocks() {
     batch_.cache = {};
     batch_.next = {};

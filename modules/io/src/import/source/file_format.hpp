@@ -18,8 +18,8 @@ struct FormatTraits {
   Format format = Format::kUnknown;
   std::string_view extension;  ///< the usual one, without the dot; empty for kUnknown
   std::string_view reader;     ///< assimp's name of its reader; empty where assimp is not to read the format
-  bool survives_damage =
-      false;  ///< whether that reader ends without a crash on every damaged file seen so far
+  /// Whether that reader ends without a crash on every damaged file seen so far.
+  bool survives_damage = false;
   bool splits_vertices = false;  ///< whether that reader makes a vertex of each corner of a triangle
   bool has_materials = true;     ///< whether a file of the format can have materials
 };
