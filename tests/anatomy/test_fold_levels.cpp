@@ -1,6 +1,9 @@
 // Armpits and crotch against the positions that limbs predict: whole bodies pass, displaced folds do not.
 #include <doctest/doctest.h>
 
+#include <map>
+#include <utility>
+
 #include <bodice/synth/body.hpp>
 
 #include "analyzed.hpp"
@@ -13,7 +16,7 @@ using body::LandmarkId;
 
 namespace {
 
-anatomy::Anatomy found_on(synth::Pose pose, double childhood = 0.0) {
+anatomy::Anatomy make_found(synth::Pose pose, double childhood) {
   synth::BodyOptions options;
   options.pose = pose;
   options.childhood = childhood;
@@ -21,6 +24,14 @@ anatomy::Anatomy found_on(synth::Pose pose, double childhood = 0.0) {
   const auto body = synth::make_body({}, options);
   REQUIRE(body.ok());
   return analyzed(body->mesh);
+}
+
+/// A copy of what was found on a made body, which is analyzed once for all cases.
+anatomy::Anatomy found_on(synth::Pose pose, double childhood = 0.0) {
+  static std::map<std::pair<synth::Pose, double>, anatomy::Anatomy> known;
+  const std::pair key(pose, childhood);
+  const auto at = known.find(key);
+  return at != known.end() ? at->second : known.emplace(key, make_found(pose, childhood)).first->second;
 }
 
 body::Landmark& mark(anatomy::Anatomy& found, LandmarkId id) {

@@ -26,6 +26,23 @@ std::string judged(const TriMesh& skin) {
   return anatomy ? std::string() : anatomy.error().message;
 }
 
+struct Analyzed {
+  synth::Body body;
+  anatomy::Anatomy found;
+};
+
+/// The default body, for cases that change copies of what was found on it.
+const Analyzed& default_body() {
+  static const Analyzed made = [] {
+    auto body = synth::make_body({}, synth::BodyOptions{});
+    REQUIRE(body.ok());
+    auto found = anatomy::analyze({}, body->mesh, options(false));
+    REQUIRE(found.ok());
+    return Analyzed{std::move(*body), std::move(*found)};
+  }();
+  return made;
+}
+
 }  // namespace
 
 TEST_CASE("made bodies of any build, age and pose are human") {
@@ -79,33 +96,29 @@ TEST_CASE("two people in one skin are refused for the ends of the second one") {
 }
 
 TEST_CASE("legs and other limbs that stay welded are those of two bodies where landmarks are in doubt") {
-  const auto body = synth::make_body({}, synth::BodyOptions{});
-  REQUIRE(body.ok());
-  auto found = anatomy::analyze({}, body->mesh, options(false));
-  REQUIRE(found.ok());
+  const geometry::TriMesh& skin = default_body().body.mesh;
+  anatomy::Anatomy found = default_body().found;
   for (const char* code :
        {"legs-fused", "limbs-fused", "neck-uncertain", "armpit-uncertain", "armpit-uncertain"})
-    found->warnings.push_back({code, "", "", ""});
-  CHECK(anatomy::contradictions(body->mesh, *found).empty());
-  found->warnings.push_back({"crown-disagrees", "", "", ""});
-  CHECK(anatomy::contradictions(body->mesh, *found).size() == 1);
+    found.warnings.push_back({code, "", "", ""});
+  CHECK(anatomy::contradictions(skin, found).empty());
+  found.warnings.push_back({"crown-disagrees", "", "", ""});
+  CHECK(anatomy::contradictions(skin, found).size() == 1);
 }
 
 TEST_CASE("hands and legs that stay welded are those of two bodies where most landmarks are in doubt") {
-  const auto body = synth::make_body({}, synth::BodyOptions{});
-  REQUIRE(body.ok());
-  auto found = anatomy::analyze({}, body->mesh, options(false));
-  REQUIRE(found.ok());
+  const geometry::TriMesh& skin = default_body().body.mesh;
+  anatomy::Anatomy found = default_body().found;
   for (const char* code : {"legs-fused", "neck-uncertain", "neck-disagrees", "perineum-uncertain",
                            "armpit-uncertain", "armpit-uncertain"})
-    found->warnings.push_back({code, "", "", ""});
-  auto one_less = *found;
+    found.warnings.push_back({code, "", "", ""});
+  anatomy::Anatomy one_less = found;
   one_less.warnings.push_back({"hand-fused-to-leg", "", "", ""});
-  CHECK(anatomy::contradictions(body->mesh, one_less).empty());
-  found->warnings.push_back({"crown-disagrees", "", "", ""});
-  CHECK(anatomy::contradictions(body->mesh, *found).empty());
-  found->warnings.push_back({"hand-fused-to-leg", "", "", ""});
-  CHECK(anatomy::contradictions(body->mesh, *found).size() == 1);
+  CHECK(anatomy::contradictions(skin, one_less).empty());
+  found.warnings.push_back({"crown-disagrees", "", "", ""});
+  CHECK(anatomy::contradictions(skin, found).empty());
+  found.warnings.push_back({"hand-fused-to-leg", "", "", ""});
+  CHECK(anatomy::contradictions(skin, found).size() == 1);
 }
 
 TEST_CASE("with force, what is analyzed but not human gives a warning with the reason") {
