@@ -28,6 +28,23 @@ LayerScene pinned_sheets() {
   return scene;
 }
 
+/// The largest distance of a pin from its target over all frames of a scene, meters.
+double farthest_pin(const LayerScene& scene, const cloth::SolverOptions& how) {
+  cloth::Solver solver = make_solver(scene.mesh, scene.pins, cotton(), how);
+  double farthest_m = 0.0;
+  for (int frame = 1; frame <= scene.frames; ++frame) {
+    std::vector<Vec3> targets;
+    for (const Index v : scene.pins)
+      targets.push_back(scene.pin_at(scene.mesh.positions[v], frame * kFrame_s));
+    solver.move_pins(targets);
+    solver.step({}, kFrame_s);
+    const std::vector<Vec3> at = positions(solver, scene.mesh.positions.size());
+    for (std::size_t k = 0; k < targets.size(); ++k)
+      farthest_m = std::max(farthest_m, (at[scene.pins[k]] - targets[k]).norm());
+  }
+  return farthest_m;
+}
+
 }  // namespace
 
 TEST_CASE("pins: layers of pins that press through each other cross, unless the pins yield") {
@@ -73,4 +90,37 @@ TEST_CASE("pins: a pin that yields is pushed out of the body, and one that does 
     const double height_m = positions(solver, mesh.positions.size())[middle.front()].y();
     CHECK(height_m == doctest::Approx(yields ? 0.1 + options.thickness_m : 0.098).epsilon(1e-5));
   }
+}
+
+TEST_CASE("pins: crossing layers that are drawn apart do not carry pins along") {
+  LayerScene scene;
+  scene.mesh = sheet(6, 6, kSide_m, kSide_m, Vec3::Zero());
+  for (Index v = 0; v < scene.mesh.positions.size(); ++v) scene.pins.push_back(v);
+  const auto upright = [](double u, double v) {
+    return Vec3(0.13, (u - 0.47) * kSide_m, (v + 0.03) * kSide_m);
+  };
+  append(surface(6, 6, false, upright), scene.mesh);
+  REQUIRE(crossings(scene.mesh, scene.mesh.positions) > 0);
+  scene.pin_at = [](const Vec3& start, double) { return start; };
+  cloth::SolverOptions how = layered(true);
+  how.pins_yield = true;
+  how.environment.gravity_m_s2 = Vec3::Zero();
+  CHECK(farthest_pin(scene, how) < 5e-3);
+}
+
+TEST_CASE("pins: a layer that slides over pins drags them by little more than a centimeter") {
+  LayerScene scene;
+  scene.mesh = sheet(6, 6, kSide_m, kSide_m, Vec3::Zero());
+  append(sheet(6, 24, kSide_m, 4 * kSide_m, Vec3(0.013, 0.002, -3.5 * kSide_m)), scene.mesh);
+  for (Index v = 0; v < scene.mesh.positions.size(); ++v) scene.pins.push_back(v);
+  constexpr double kSpeed_m_s = 3.0;
+  scene.pin_at = [](const Vec3& start, double time_s) {
+    return start.y() > 1e-6 ? Vec3(start + Vec3(0, -0.004, kSpeed_m_s * time_s)) : start;
+  };
+  scene.frames = 28;
+  cloth::SolverOptions how = layered(true);
+  how.pins_yield = true;
+  const double farthest_m = farthest_pin(scene, how);
+  CHECK(farthest_m > 2e-3);
+  CHECK(farthest_m < 0.0115);
 }

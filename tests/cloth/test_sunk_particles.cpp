@@ -168,11 +168,12 @@ TEST_CASE(
   room.resize(start.size());
   cloth::Loose loose = cloth::make_loose(start.size());
   cloth::loosen(crossed.contact, crossed.tangles(), start, loose);
+  const std::vector<float> inverse_mass(start.size(), 1.0f);
   for (const bool on_body : {false, true}) {
     CAPTURE(on_body);
     const std::vector<std::uint8_t> touching(start.size(), on_body);
     at = start;
-    cloth::untangle(crossed.contact, crossed.tangles(), {touching, loose, kStep_m}, room, at);
+    cloth::untangle(crossed.contact, crossed.tangles(), {touching, inverse_mass, loose, kStep_m}, room, at);
     double farthest_m = 0.0;
     for (Index i = 0; i < at.size(); ++i)
       farthest_m = std::max(farthest_m, (to_vec(at[i]) - to_vec(start[i])).norm());

@@ -210,7 +210,8 @@ TEST_CASE("wrong side: a particle that is through a layer is drawn back where bo
   for (cloth::Point& p : at) p.weight = 1.0f;
   const Index through = sheets.upper(6, 6);
   const float before = at[through].y;
-  cloth::untangle(sheets.contact, sheets.tangles, {on_body, sheets.loose, 1e-3f}, room, at);
+  const std::vector<float> inverse_mass(at.size(), 1.0f);
+  cloth::untangle(sheets.contact, sheets.tangles, {on_body, inverse_mass, sheets.loose, 1e-3f}, room, at);
   CHECK(at[through].y > before);
 }
 

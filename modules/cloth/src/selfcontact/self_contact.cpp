@@ -260,7 +260,8 @@ void push_apart(const engine::Context& context, const SelfSubstep& substep, Self
   refresh_contacts(context, source_of(s), s.tasks);
   hold_back_pulled(context, substep, kPulled_m_s * substep.length_s, p, s);
   push_pairs_apart(context, s.mesh, push_of(substep, s), s.tasks, p.point);
-  untangle(s.mesh, s.tangles, {substep.touching, s.loose, kUntangle_m_s * substep.length_s}, s.now, p.point);
+  untangle(s.mesh, s.tangles, {substep.touching, p.inverse_mass, s.loose, kUntangle_m_s * substep.length_s},
+           s.now, p.point);
   release_pulled(context, substep, p, s);
 }
 

@@ -25,8 +25,8 @@ bool cross_each_other(const Face& a, const Face& b, std::span<const Point> at) {
 
 // Moves edge k of `of`, and the triangle `face` that it passes through against it, so that the line along
 // which the two triangles cross becomes shorter.
-void shorten_crossing(const Face& of, unsigned k, const Face& face, const Passage& passage, float step_m,
-                      std::span<Point> at) {
+void shorten_crossing(const Face& of, unsigned k, const Face& face, const Passage& passage,
+                      const Untangling& how, std::span<Point> at) {
   const Index p = of.particle[k], q = of.particle[(k + 1) % 3];
   const Float4 from = at_particle(at, p), a = at_particle(at, face.particle[0]);
   const Float4 edge = unit(at_particle(at, q) - from),
@@ -41,15 +41,17 @@ void shorten_crossing(const Face& of, unsigned k, const Face& face, const Passag
   const Index particle[5] = {p, q, face.particle[0], face.particle[1], face.particle[2]};
   const float weight[5] = {passage.edge[0], passage.edge[1], -passage.face[0], -passage.face[1],
                            -passage.face[2]};
+  auto free_weight = [&](Index i) { return how.inverse_mass[i] > 0.0f ? at[i].weight : 0.0f; };
   float all = kTinyWeight, most = 0.0f;
   for (int i = 0; i < 5; ++i) {
-    const float yielding = std::abs(weight[i]) * at[particle[i]].weight;
+    const float yielding = std::abs(weight[i]) * free_weight(particle[i]);
     all += std::abs(weight[i]) * yielding, most = std::max(most, yielding);
   }
   all = std::max(all, most);
   for (int i = 0; i < 5; ++i) {
     Point& point = at[particle[i]];
-    store(point, load(point) + (step_m * weight[i] * point.weight / all) * xyz(gradient));
+    const float share = weight[i] * free_weight(particle[i]) / all;
+    store(point, load(point) + (how.step_m * share) * xyz(gradient));
   }
 }
 
@@ -124,10 +126,8 @@ void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles, const
   for (const Tangle& t : tangles) {
     const Face &a = mesh.faces[t.a], &b = mesh.faces[t.b];
     if (stays(a, b, how)) continue;
-    for_each_passage(a, b, at,
-                     [&](unsigned k, const Passage& p) { shorten_crossing(a, k, b, p, how.step_m, at); });
-    for_each_passage(b, a, at,
-                     [&](unsigned k, const Passage& p) { shorten_crossing(b, k, a, p, how.step_m, at); });
+    for_each_passage(a, b, at, [&](unsigned k, const Passage& p) { shorten_crossing(a, k, b, p, how, at); });
+    for_each_passage(b, a, at, [&](unsigned k, const Passage& p) { shorten_crossing(b, k, a, p, how, at); });
   }
   for (const Index i : how.loose.list) limit_displacement(how.step_m, room[i], at[i]);
 }

@@ -27,6 +27,7 @@ bool add_pressed(const ContactMesh& mesh, const std::vector<PairTask>& tasks, st
 /// How triangles that cross are moved.
 struct Untangling {
   std::span<const std::uint8_t> touching;  ///< #P: whether the particle lies on the body
+  std::span<const float> inverse_mass;     ///< #P: 0 for a pin, which stays, even if contact may move it
   const Loose& loose;                      ///< what is loose around these tangles
   float step_m = 0.0f;                     ///< how far each triangle is moved, and a particle at most
 };
