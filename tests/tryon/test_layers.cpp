@@ -1,4 +1,4 @@
-// Garments in the order that is given, from the body outward.
+// Garments in the order that is given, from the body outward, and layers that cross in their files.
 #include <doctest/doctest.h>
 
 #include <bodice/geometry/crossings.hpp>
@@ -11,15 +11,17 @@ using geometry::Vec3;
 
 namespace {
 
+constexpr Index kAround = 48, kRows = 20;
+
 /// A tube about y of 48 quads around and 20 up, each cut in two, with a radius that may vary.
 template <class Radius>
-tryon::WornGarment tube(const char* name, Radius&& radius) {
-  constexpr Index kAround = 48, kRows = 20;
+tryon::WornGarment tube(const char* name, Radius&& radius, double lowest_m = -0.15) {
   tryon::WornGarment garment{.name = name, .mesh = {}, .held = {}};
   for (Index j = 0; j <= kRows; ++j)
     for (Index i = 0; i < kAround; ++i) {
       const double angle = 6.283185307179586 * i / kAround, r = radius(angle + 0.4 * j);
-      garment.mesh.positions.emplace_back(r * std::cos(angle), 0.3 * j / kRows - 0.15, r * std::sin(angle));
+      garment.mesh.positions.emplace_back(r * std::cos(angle), 0.3 * j / kRows + lowest_m,
+                                          r * std::sin(angle));
     }
   for (Index j = 0; j < kRows; ++j)
     for (Index i = 0; i < kAround; ++i) {
@@ -75,4 +77,98 @@ TEST_CASE("layers: an order with an unknown or a repeated name fails and lists t
     CHECK(laid.error().code == engine::ErrorCode::kInvalidArgument);
     CHECK(laid.error().sentence().find("shirt, trousers") != std::string::npos);
   }
+}
+
+namespace {
+
+/// A bodice and a skirt of one file. Over 4.5 cm they overlap, and cross as waves that are `deep_m` high; the
+/// skirt is `farther_m` farther from the skin on average.
+geometry::TriMesh bodice_and_skirt(double deep_m, double farther_m) {
+  const auto bodice = tube("bodice", [](double) { return 0.31; });
+  const auto skirt = tube(
+      "skirt", [&](double angle) { return 0.31 + farther_m + deep_m * std::sin(3.0 * angle + 0.1); }, -0.405);
+  return tryon::join({bodice, skirt})->mesh;
+}
+
+/// The distance from the axis of the vertices `first` to `last`: mean, and the farthest that one has moved.
+struct Radii {
+  double mean_m = 0.0, moved_m = 0.0;
+};
+
+Radii radii(const geometry::TriMesh& mesh, const geometry::TriMesh& before, std::size_t first,
+            std::size_t last) {
+  Radii r;
+  for (std::size_t v = first; v < last; ++v) {
+    r.mean_m += std::hypot(mesh.positions[v].x(), mesh.positions[v].z()) / static_cast<double>(last - first);
+    r.moved_m = std::max(r.moved_m, (mesh.positions[v] - before.positions[v]).norm());
+  }
+  return r;
+}
+
+}  // namespace
+
+TEST_CASE("layers: a bodice and a skirt that cross are separated, and the outer one is moved") {
+  const Layers l;
+  for (const double farther_m : {0.001, -0.001}) {
+    CAPTURE(farther_m);
+    const geometry::TriMesh before = bodice_and_skirt(0.004, farther_m);
+    geometry::TriMesh mesh = before;
+    const auto separated = tryon::separate_layers(l.context, l.skin, 0.002, mesh);
+    CHECK(separated.before == geometry::find_crossings(before.positions, before.triangles).size());
+    CHECK(separated.before > 100);
+    CHECK(separated.after == 0);
+    CHECK(geometry::find_crossings(mesh.positions, mesh.triangles).empty());
+    const std::size_t half = mesh.positions.size() / 2;
+    const Radii bodice = radii(mesh, before, 0, half), skirt = radii(mesh, before, half, 2 * half);
+    const Radii &outer = farther_m > 0.0 ? skirt : bodice, &inner = farther_m > 0.0 ? bodice : skirt;
+    CHECK(inner.moved_m == 0.0);
+    CHECK(outer.moved_m > 0.002);
+    CHECK(outer.moved_m <= 0.015);
+  }
+}
+
+TEST_CASE("layers: vertices at one position move alike where layers are separated") {
+  const Layers l;
+  geometry::TriMesh mesh = bodice_and_skirt(0.004, 0.001);
+  const std::size_t count = mesh.positions.size();
+  // The skirt's triangles on one side get vertices of their own, as a file has them along a texture's seam.
+  for (geometry::Triangle& t : mesh.triangles)
+    if (t[0] >= count / 2 && mesh.positions[t[0]].x() > 0.0)
+      for (Index& v : t) {
+        mesh.positions.push_back(mesh.positions[v]);
+        v = static_cast<Index>(mesh.positions.size() - 1);
+      }
+  std::vector<std::pair<Index, Index>> copies;
+  for (Index v = static_cast<Index>(count); v < mesh.positions.size(); ++v)
+    for (Index w = 0; w < count; ++w)
+      if (mesh.positions[v] == mesh.positions[w]) copies.emplace_back(v, w);
+  REQUIRE(copies.size() > 1000);
+  const geometry::TriMesh before = mesh;
+  tryon::separate_layers(l.context, l.skin, 0.002, mesh);
+  CHECK(mesh.positions != before.positions);
+  for (const auto& [v, w] : copies) CHECK(mesh.positions[v] == mesh.positions[w]);
+}
+
+TEST_CASE("layers: what is too deep to be separated does not cross more than before") {
+  const Layers l;
+  const geometry::TriMesh before = bodice_and_skirt(0.03, 0.001);
+  geometry::TriMesh mesh = before;
+  const auto separated = tryon::separate_layers(l.context, l.skin, 0.002, mesh);
+  CHECK(separated.after == geometry::find_crossings(mesh.positions, mesh.triangles).size());
+  CHECK(separated.after > 0);
+  CHECK(separated.after <= separated.before);
+  CHECK(radii(mesh, before, 0, mesh.positions.size()).moved_m <= 0.015);
+}
+
+TEST_CASE("layers: a sheet that crosses itself at a fold stays where it is") {
+  const Layers l;
+  tryon::WornGarment garment = tube("collar", [](double) { return 0.31; });
+  const auto inner_row = static_cast<std::size_t>(kAround) * 10;
+  for (std::size_t i = 0; i < kAround; ++i)  // one row is pulled down through the two rows below it
+    garment.mesh.positions[inner_row + i] += Vec3(0.002 * (i % 2 == 0 ? 1.0 : -1.0), -0.04, 0.0);
+  const geometry::TriMesh before = garment.mesh;
+  REQUIRE(!geometry::find_crossings(before.positions, before.triangles).empty());
+  const auto separated = tryon::separate_layers(l.context, l.skin, 0.002, garment.mesh);
+  CHECK(separated.after == separated.before);
+  CHECK(garment.mesh.positions == before.positions);
 }

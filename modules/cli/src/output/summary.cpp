@@ -62,8 +62,11 @@ void add_drape(std::string& text, const tryon::DrapeReport& d) {
   add_line(text, "cloth       stretch %.1f %% at 95 %%, median speed %.1f mm/s, %zu inside the proxy%s",
            d.stretch_p95 * 100.0, d.median_speed_m_s * 1e3, d.inside_union, d.finite ? "" : ", NOT FINITE");
   if (d.crossings_start + d.crossings_end > 0)
-    add_line(text, "layers      %zu pairs of triangles of the cloth cross at the start, %zu at the end",
-             d.crossings_start, d.crossings_end);
+    add_line(
+        text,
+        "layers      %zu pairs of triangles of the cloth cross at the start, of which %zu are separated; "
+        "%zu at the end",
+        d.crossings_start, d.crossings_separated, d.crossings_end);
   for (const tryon::PropReport& p : d.props)
     add_line(text,
              "prop        %s: %zu ellipsoids, %.2f mm mean; %zu particles deeper than 1 mm in it at the end; "

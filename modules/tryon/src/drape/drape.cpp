@@ -8,7 +8,6 @@
 
 #include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/stage_timer.hpp>
-#include <bodice/geometry/crossings.hpp>
 #include <bodice/rig/loop.hpp>
 #include <bodice/tryon/base_pose.hpp>
 #include <bodice/tryon/layers.hpp>
@@ -30,7 +29,7 @@ namespace {
 
 using geometry::Vec3;
 
-constexpr double kLayersOfGap = 2.0;  // the distance of ordered garments, in gaps between layers
+constexpr double kLayersOfGap = 2.0;  // the distance of separated layers, in gaps between layers
 
 double ramp_s(const engine::Context& context, const DrapeOptions& options, const PreparedBody& body) {
   if (!options.motion) return 0.0;
@@ -93,6 +92,8 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   auto all = join(garments);
   if (!all) return all.error();
   if (auto good = check(garments, body); !good) return std::move(good).error();
+  const SeparatedLayers separated =
+      separate_layers(context, *body.skin.distance, kLayersOfGap * options.solver.layer_gap_m, all->mesh);
   const auto tacked = add_tacks(context, garments, options.tack_m, *all);
   const auto fabric = fabric_or_cotton(options.fabric);
   if (!fabric) return fabric.error();
@@ -111,7 +112,8 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   report.base_poses = bases->size();
   for (std::size_t g = 0; g < garments.size(); ++g) report.garments[g].tacked = tacked[g];
   report.particles = solver->particles();
-  report.crossings_start = geometry::find_crossings(all->mesh.positions, all->mesh.triangles).size();
+  report.crossings_start = separated.before;
+  report.crossings_separated = separated.before - separated.after;
   report.ramp_s = ramp_s(context, options, body);
   warn_of_misplaced(garments, body, report.warnings);
   if (auto joined = join_props(context, all->mesh.positions, body, options.props, result); !joined)

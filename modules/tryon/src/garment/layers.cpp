@@ -8,6 +8,8 @@
 #include <bodice/engine/parallel.hpp>
 #include <bodice/geometry/crossings.hpp>
 
+#include "garment/outward.hpp"
+
 namespace bodice::inline v0_1::tryon {
 namespace {
 
@@ -17,13 +19,6 @@ using geometry::Vec3;
 constexpr double kDeepest_m = 0.04;      // how far below an inner garment a vertex may lie
 constexpr int kRounds = 40;              // the most rounds that lift triangles which cross, by a gap each
 constexpr std::size_t kLiftGrain = 256;  // vertices a task
-
-/// The direction away from the skin.
-Vec3 outward(const geometry::MeshDistance& skin, const Vec3& p) {
-  const geometry::SurfacePoint below = skin.closest_point(p);
-  return std::abs(below.signed_distance) > 1e-9 ? Vec3((p - below.point) / below.signed_distance)
-                                                : below.normal;
-}
 
 /// The length by which a vertex must be lifted to lie over the inner garment, meters; 0 if that is not beside
 /// it.

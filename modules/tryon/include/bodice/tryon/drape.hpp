@@ -85,7 +85,9 @@ struct DrapeReport {
   int worst_frame = 0;
   std::vector<double> penetration_of_frame_m;  ///< deepest particle of each frame, #frames
   double pierced_share = 0.0;                  ///< share of the cloth's area inside the skin at the end
-  std::size_t crossings_start = 0, crossings_end = 0;  ///< pairs of triangles of the cloth that cross
+  /// Pairs of triangles of the cloth that cross: in the garments that were given, those of them that
+  /// separate_layers() separated before the first frame, and at the end.
+  std::size_t crossings_start = 0, crossings_separated = 0, crossings_end = 0;
   std::size_t inside_union = 0;                 ///< particles inside the proxy at the end: count_inside()
   double stretch_p95 = 0.0, stretch_max = 0.0;  ///< edge strain at the end
   double median_speed_m_s = 0.0;                ///< at the end

@@ -1,6 +1,7 @@
-// The order in which garments lie over each other, and where they cross.
+// Garments over each other, and layers that cross in their files.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -20,5 +21,19 @@ engine::Result<std::vector<WornGarment>> order_layers(const engine::Context& con
                                                       const geometry::MeshDistance& skin,
                                                       const std::vector<std::string>& order,
                                                       std::vector<WornGarment> garments, double gap_m);
+
+/// The pairs of triangles that crossed before layers were separated, and those that still do.
+struct SeparatedLayers {
+  std::size_t before = 0, after = 0;
+};
+
+/// Separates layers that cross in garments made for a body that stands at rest, such as a bodice and a skirt
+/// of one file. Around their line, the layer that lies farther from the skin is moved outward, until it is
+/// `gap_m` over the other one. The same layer is moved at all lines of two pieces. No vertex moves farther
+/// than 15 mm, and vertices at equal positions move alike. Where a surface crosses itself at a fold, nothing
+/// moves. Deterministic; never leaves more pairs than before. drape() calls this, a session does not. Cost:
+/// up to 30 times that of finding all crossings and some closest points, a few milliseconds each.
+SeparatedLayers separate_layers(const engine::Context& context, const geometry::MeshDistance& skin,
+                                double gap_m, geometry::TriMesh& garments);
 
 }  // namespace bodice::tryon
