@@ -265,3 +265,18 @@ TEST_CASE("a garment that begins deep in a wide proxy is lifted out of it withou
       CHECK(report.lifted_m == 0.0);
   }
 }
+
+TEST_CASE("a drape separates garments that cross before its first frame") {
+  const tryon::PreparedBody& body = builtin_body(2000, proxy::Tier::kTight);
+  const tryon::WornGarment skirt = skirt_for({}, body.skin);
+  tryon::WornGarment over{.name = "over", .mesh = skirt.mesh, .held = skirt.held};
+  for (geometry::Vec3& p : over.mesh.positions) {
+    const double angle = std::atan2(p.z(), p.x());
+    p += (0.001 + 0.003 * std::sin(5.0 * angle)) * geometry::Vec3(std::cos(angle), 0.0, std::sin(angle));
+  }
+  const auto draped = tryon::drape({}, body, {skirt, over}, {.frames = 1});
+  REQUIRE(draped.ok());
+  CHECK(draped->report.crossings_start > 100);
+  CHECK(draped->report.crossings_separated == draped->report.crossings_start);
+  CHECK(draped->report.crossings_end == 0);
+}
