@@ -160,15 +160,23 @@ TEST_CASE("layers: what is too deep to be separated does not cross more than bef
   CHECK(radii(mesh, before, 0, mesh.positions.size()).moved_m <= 0.015);
 }
 
-TEST_CASE("layers: a sheet that crosses itself at a fold stays where it is") {
+TEST_CASE("layers: a surface that crosses itself is smoothed there, outside of the skin") {
   const Layers l;
-  tryon::WornGarment garment = tube("collar", [](double) { return 0.31; });
-  const auto inner_row = static_cast<std::size_t>(kAround) * 10;
-  for (std::size_t i = 0; i < kAround; ++i)  // one row is pulled down through the two rows below it
-    garment.mesh.positions[inner_row + i] += Vec3(0.002 * (i % 2 == 0 ? 1.0 : -1.0), -0.04, 0.0);
+  tryon::WornGarment garment = tube("cotton", [](double) { return 0.303; });
+  const auto row = static_cast<std::size_t>(kAround) * 10;
+  for (std::size_t i = 0; i < kAround / 4; ++i)  // a part of a row is pulled down through the rows below it
+    garment.mesh.positions[row + i] += Vec3(0.002 * (i % 2 == 0 ? 1.0 : -1.0), -0.017, 0.0);
   const geometry::TriMesh before = garment.mesh;
   REQUIRE(!geometry::find_crossings(before.positions, before.triangles).empty());
   const auto separated = tryon::separate_layers(l.context, l.skin, 0.002, garment.mesh);
-  CHECK(separated.after == separated.before);
-  CHECK(garment.mesh.positions == before.positions);
+  CHECK(separated.after == 0);
+  std::size_t moved = 0;
+  for (std::size_t v = 0; v < before.positions.size(); ++v) {
+    const Vec3 &from = before.positions[v], &to = garment.mesh.positions[v];
+    moved += from != to;
+    const double least_m = std::min(l.skin.signed_distance(from), 0.004);
+    CHECK(l.skin.signed_distance(to) >= least_m - 1e-4);
+  }
+  CHECK(moved > 0);
+  CHECK(moved < before.positions.size() / 4);
 }

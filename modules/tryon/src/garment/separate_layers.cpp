@@ -19,7 +19,8 @@ using geometry::Index;
 using geometry::Vec3;
 using Crossings = std::vector<std::array<std::size_t, 2>>;
 
-constexpr int kMostRounds = 30;
+// The most rounds, and the most of them that do not leave fewer pairs.
+constexpr int kMostRounds = 30, kVainRounds = 4;
 // The rings of triangles around a line of crossing that decide which layer is the outer one, and the distance
 // within which a vertex there lies over the other layer.
 constexpr int kRings = 5;
@@ -27,6 +28,10 @@ constexpr double kLayersWithin_m = 0.01;
 constexpr double kFarthestMove_m = 0.015;
 // A vertex lies over a point that is aside by no more than its height and this.
 constexpr double kAside_m = 0.001;
+// The rings of triangles around a fold that crosses itself which are smoothed, and the distance from the skin
+// that smoothing leaves, unless a vertex was nearer.
+constexpr int kSmoothedRings = 2;
+constexpr double kLeastToSkin_m = 0.004;
 
 /// The triangles around each vertex, the pieces that they join, and the vertices at each position.
 struct Topology {
@@ -60,7 +65,11 @@ struct Layer {
 class Layers {
  public:
   Layers(const geometry::TriMesh& mesh, const Topology& topology, const Crossings& crossings)
-      : mesh_(mesh), topology_(topology), of_(mesh.triangles.size()), crossed_(mesh.triangles.size()) {
+      : mesh_(mesh),
+        topology_(topology),
+        of_(mesh.triangles.size()),
+        ring_(mesh.triangles.size(), 0),
+        crossed_(mesh.triangles.size()) {
     for (const auto& [a, b] : crossings) {
       crossed_[a].push_back(static_cast<Index>(b));
       crossed_[b].push_back(static_cast<Index>(a));
@@ -79,6 +88,17 @@ class Layers {
     for (const Index t : topology_.triangles[v])
       if (const Layer layer = of_triangle(t); layer.exists()) return layer;
     return {};
+  }
+  /// The vertices around folds that cross themselves.
+  std::vector<Index> vertices_of_folds() const {
+    std::vector<Index> vertices;
+    for (const Index t : added_)
+      if (is_fold_[of_[t].line] && ring_[t] <= kSmoothedRings)
+        vertices.insert(vertices.end(), mesh_.triangles[t].begin(), mesh_.triangles[t].end());
+    std::ranges::sort(vertices);
+    const auto repeated = std::ranges::unique(vertices);
+    vertices.erase(repeated.begin(), repeated.end());
+    return vertices;
   }
   bool is_corner_of_crossing(Index v) const {
     return std::ranges::any_of(topology_.triangles[v], [&](Index t) { return !crossed_[t].empty(); });
@@ -131,13 +151,17 @@ class Layers {
       for (; begin < end; ++begin)
         for (const Index v : mesh_.triangles[added_[begin]])
           for (const Index neighbor : topology_.triangles[v])
-            if (!of_[neighbor].exists()) add(neighbor, of_[added_[begin]]);
+            if (!of_[neighbor].exists()) {
+              add(neighbor, of_[added_[begin]]);
+              ring_[neighbor] = ring + 1;
+            }
     }
   }
 
   const geometry::TriMesh& mesh_;
   const Topology& topology_;
   std::vector<Layer> of_;                                    // #T
+  std::vector<int> ring_;                                    // #T: rings between it and a crossing
   std::vector<std::vector<Index>> crossed_;                  // #T: the triangles that each crosses
   std::vector<Index> added_;                                 // triangles with a layer
   std::map<std::pair<Index, Index>, Index> line_of_pieces_;  // by the numbers of two pieces
@@ -207,6 +231,28 @@ bool lift_outer_layers(std::span<const NearLine> near, const Layers& layers, con
   return !lifts.empty();
 }
 
+/// Moves the vertices around folds that cross themselves to the mean of their neighbors, and out of the skin.
+/// That spans a crease of the body, of which both sides were pushed into each other. Returns whether any
+/// moved.
+bool smooth_folds(const geometry::MeshDistance& skin, const geometry::TriMesh& mesh, const Layers& layers,
+                  const Topology& topology, std::span<const Vec3> start, std::vector<Vec3>& positions) {
+  std::map<Index, Vec3> moved;  // by the first vertex at a position
+  for (const Index v : layers.vertices_of_folds()) {
+    if (!positions[v].allFinite() || moved.contains(topology.first_copy[v])) continue;
+    Vec3 sum = Vec3::Zero();
+    double count = 0.0;
+    for (const Index t : topology.triangles[v])
+      for (const Index n : mesh.triangles[t]) sum += positions[n], ++count;
+    Vec3 to = sum / count;
+    const double least_m = std::min(skin.signed_distance(start[v]), kLeastToSkin_m);
+    to += std::max(0.0, least_m - skin.signed_distance(to)) * outward(skin, to);
+    if ((to - start[v]).norm() <= kFarthestMove_m) moved.emplace(topology.first_copy[v], to);
+  }
+  for (Index v = 0; v < positions.size(); ++v)
+    if (const auto to = moved.find(topology.first_copy[v]); to != moved.end()) positions[v] = to->second;
+  return !moved.empty();
+}
+
 }  // namespace
 
 SeparatedLayers separate_layers(const engine::Context& context, const geometry::MeshDistance& skin,
@@ -217,12 +263,16 @@ SeparatedLayers separate_layers(const engine::Context& context, const geometry::
   const Topology topology(garments);
   const std::vector<Vec3> start = garments.positions;
   std::vector<Vec3> best = start;
-  for (int round = 0; round < kMostRounds && !crossings.empty(); ++round) {
+  int in_vain = 0;
+  for (int round = 0; round < kMostRounds && in_vain < kVainRounds && !crossings.empty(); ++round) {
     const Layers layers(garments, topology, crossings);
     const auto near = vertices_near_lines(context, skin, garments, layers);
-    if (!lift_outer_layers(near, layers, topology, gap_m, start, garments.positions)) break;
+    const bool lifted = lift_outer_layers(near, layers, topology, gap_m, start, garments.positions);
+    if (!smooth_folds(skin, garments, layers, topology, start, garments.positions) && !lifted) break;
     crossings = geometry::find_crossings(garments.positions, garments.triangles);
+    ++in_vain;
     if (crossings.size() >= result.after) continue;
+    in_vain = 0;
     result.after = crossings.size();
     best = garments.positions;
   }
