@@ -20,7 +20,7 @@ using geometry::Vec3;
 using Crossings = std::vector<std::array<std::size_t, 2>>;
 
 // The most rounds, and the most of them that do not leave fewer pairs.
-constexpr int kMostRounds = 30, kVainRounds = 4;
+constexpr int kMostRounds = 30, kVainRounds = 8;
 // The rings of triangles around a line of crossing that decide which layer is the outer one, and the distance
 // within which a vertex there lies over the other layer.
 constexpr int kRings = 5;
@@ -28,9 +28,12 @@ constexpr double kLayersWithin_m = 0.01;
 constexpr double kFarthestMove_m = 0.015;
 // A vertex lies over a point that is aside by no more than its height and this.
 constexpr double kAside_m = 0.001;
-// The rings of triangles around a fold that crosses itself which are smoothed, and the distance from the skin
-// that smoothing leaves, unless a vertex was nearer.
+// The rings of triangles around a fold that crosses itself which are smoothed, and the share of the distance
+// to the mean of its neighbors by which a vertex moves. Larger ones leave edges that are much shorter at
+// rest.
 constexpr int kSmoothedRings = 2;
+constexpr double kSmoothing = 0.3;
+// The distance from the skin that smoothing leaves, unless a vertex was nearer.
 constexpr double kLeastToSkin_m = 0.004;
 
 /// The triangles around each vertex, the pieces that they join, and the vertices at each position.
@@ -243,7 +246,7 @@ bool smooth_folds(const geometry::MeshDistance& skin, const geometry::TriMesh& m
     double count = 0.0;
     for (const Index t : topology.triangles[v])
       for (const Index n : mesh.triangles[t]) sum += positions[n], ++count;
-    Vec3 to = sum / count;
+    Vec3 to = positions[v] + kSmoothing * (sum / count - positions[v]);
     const double least_m = std::min(skin.signed_distance(start[v]), kLeastToSkin_m);
     to += std::max(0.0, least_m - skin.signed_distance(to)) * outward(skin, to);
     if ((to - start[v]).norm() <= kFarthestMove_m) moved.emplace(topology.first_copy[v], to);
