@@ -25,7 +25,7 @@ constexpr int kMostRounds = 30, kVainRounds = 8;
 // within which a vertex there lies over the other layer.
 constexpr int kRings = 5;
 constexpr double kLayersWithin_m = 0.01;
-constexpr double kFarthestMove_m = 0.015;
+constexpr double kFarthestMove_m = 0.015;  // limits how much a garment changes
 // A vertex lies over a point that is aside by no more than its height and this.
 constexpr double kAside_m = 0.001;
 // The rings of triangles around a fold that crosses itself which are smoothed, and the share of the distance

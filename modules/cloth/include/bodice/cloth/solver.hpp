@@ -43,8 +43,9 @@ struct SolverOptions {
   /// Distance that layers of cloth keep from each other; a quarter of the median edge is its upper bound.
   /// Parts that are nearer at rest keep their distance at rest.
   double layer_gap_m = 0.0015;
-  /// Whether the body and other layers of cloth may move pins off their targets. Pins return at half a meter
-  /// a second, and at once to a centimeter. Otherwise they stay, and layers that they press together cross.
+  /// Whether the body and other layers of cloth may move pins off their targets. Such pins return at half a
+  /// meter a second, and at once from more than a centimeter to it. Pins that do not yield stay on their
+  /// targets, and layers that they press together cross.
   bool pins_yield = false;
   collision::Response response = collision::Response::kClosestPoint;
   Environment environment = {};

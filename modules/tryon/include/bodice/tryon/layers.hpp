@@ -27,13 +27,13 @@ struct SeparatedLayers {
   std::size_t before = 0, after = 0;
 };
 
-/// Separates layers that cross in garments made for a body that stands at rest, such as a bodice and a skirt
-/// of one file. Around their line, the layer that lies farther from the skin is moved outward, until it is
-/// `gap_m` over the other one. The same layer is moved at all lines of two pieces. Where a surface crosses
-/// itself, as in a crease of the body, it is smoothed outside of the skin, so that it spans the crease. No
-/// vertex moves farther than 15 mm, and vertices at equal positions move alike. Deterministic; never leaves
-/// more pairs than before. drape() calls this, a session does not. Cost: up to 30 times that of finding all
-/// crossings and some closest points, a few milliseconds each.
+/// Separates layers that cross in garments made for a body that stands at rest, such as a bodice and a skirt.
+/// The layer that lies farther from the skin around their line is moved outward, until it is `gap_m` over the
+/// other one. The same layer is moved at all lines of two pieces. Where a surface crosses itself in a crease
+/// of the body, it is smoothed outside of the skin, so that it spans the crease. No vertex moves farther than
+/// 15 mm, and vertices at equal positions move alike. Deterministic; never leaves more pairs than before.
+/// drape() calls this, a session does not. Cost: up to 30 rounds, each of which finds all crossings and a few
+/// closest points for each vertex near them.
 SeparatedLayers separate_layers(const engine::Context& context, const geometry::MeshDistance& skin,
                                 double gap_m, geometry::TriMesh& garments);
 
